@@ -1,0 +1,32 @@
+//! The shapes, posed in the world. A type a file.
+
+mod cone;
+mod disc;
+mod plane;
+mod rectangle;
+mod sphere;
+mod triangle;
+
+pub use cone::Cone;
+pub use disc::Disc;
+pub use plane::Plane;
+pub use rectangle::Rectangle;
+pub use sphere::Sphere;
+pub use triangle::Triangle;
+
+/// Any shape that casts a shadow in closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// An infinite plane: it takes the light from everything on its other side.
+    Plane(Plane),
+    /// A flat rectangle.
+    Rectangle(Rectangle),
+    /// A flat disc.
+    Disc(Disc),
+    /// A flat triangle.
+    Triangle(Triangle),
+    /// A ball.
+    Sphere(Sphere),
+    /// A solid cone.
+    Cone(Cone),
+}

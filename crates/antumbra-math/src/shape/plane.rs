@@ -1,0 +1,22 @@
+use glam::DVec3;
+
+/// An infinite plane: the points with `normal · p = offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// Unit normal.
+    pub normal: DVec3,
+    /// Signed distance of the plane from the origin along the normal, metres.
+    pub offset: f64,
+}
+
+impl Plane {
+    /// The plane through `point` with unit normal `normal`.
+    pub fn through(point: DVec3, normal: DVec3) -> Self {
+        Self { normal, offset: normal.dot(point) }
+    }
+
+    /// Signed distance of `point`, positive on the side of the normal, metres.
+    pub fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) - self.offset
+    }
+}

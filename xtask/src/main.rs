@@ -1,0 +1,2 @@
+//! What people and continuous integration both run.
+fn main() {}
