@@ -1,2 +1,54 @@
-//! What people and continuous integration both run.
-fn main() {}
+//! What people and continuous integration both run: `cargo xtask ci`, and its parts.
+#![forbid(unsafe_code)]
+
+mod setup;
+mod steps;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+What people and continuous integration both run.
+
+Usage: cargo xtask <COMMAND>
+
+Commands:
+  setup            Look for what the tests need (software OpenGL through EGL, glslangValidator); install what is
+                   missing on Debian and its kin as root or with sudo, else say what to install
+  test [ARGS]      setup, then every test in the workspace; ARGS go to `cargo test`, such as `-p antumbra-scene`
+                   or `-- name_of_a_test`
+  ci               What continuous integration runs: formatting, lints, documentation, test
+  fuzz [--cases N] The tests that feed random input to the readers of scene and mesh files, N scenes to
+                   each test (default 1000000, minutes) and a fiftieth of that of meshes
+  help             This text
+
+Tests draw with the software renderer of Mesa (llvmpipe), so that they give the same everywhere and need no display.
+To run them on this machine's own driver instead, set ANTUMBRA_HARDWARE=1. Under `cargo xtask test` a missing OpenGL
+is a failure; under a bare `cargo test` those tests say that they were skipped.
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (command, rest) = match arguments.split_first() {
+        Some((command, rest)) => (command.as_str(), rest),
+        None => ("help", &[][..]),
+    };
+    let outcome = match (command, rest) {
+        ("setup", []) => setup::run(),
+        ("test", rest) => steps::test(rest),
+        ("ci", []) => steps::ci(),
+        ("fuzz", rest) => steps::cases(rest).and_then(steps::fuzz),
+        ("help" | "--help" | "-h", _) => {
+            print!("{HELP}");
+            Ok(())
+        }
+        (command @ ("setup" | "ci"), [extra, ..]) => Err(format!("`{command}` takes no argument `{extra}`")),
+        (unknown, _) => Err(format!("there is no command `{unknown}`; see `cargo xtask help`")),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(what) => {
+            eprintln!("error: {what}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,7 +1,9 @@
 //! The closed forms of shadows.
 #![forbid(unsafe_code)]
 
+pub mod blocking;
 mod light;
+pub mod plane_shadow;
 pub mod real;
 pub mod shape;
 

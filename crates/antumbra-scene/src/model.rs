@@ -43,10 +43,18 @@ pub struct Image {
     pub exposure: f64,
 }
 
+impl Default for Image {
+    /// What a scene file that says nothing about the image gets.
+    fn default() -> Self {
+        Self { width: 960, height: 540, background: DVec3::new(0.02, 0.02, 0.03), exposure: 1.0 }
+    }
+}
+
 /// A light as the file describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
-    /// Unique name; names the light's visibility file.
+    /// Name, usable as a file name and unique even ignoring ASCII case: it names the light's
+    /// visibility file.
     pub name: String,
     /// What kind of light, with the parameters only that kind has.
     pub kind: LightKind,
@@ -54,7 +62,7 @@ pub struct Light {
     pub position: DVec3,
     /// Linear RGB, multiplied with the intensity.
     pub color: DVec3,
-    /// Candela; lux for directional lights. Never negative.
+    /// Candela; lux for directional lights. Never negative, but zero for a light that is off.
     pub intensity: f64,
     /// How the position moves; `None` keeps it.
     pub motion: Option<Motion>,
@@ -74,7 +82,7 @@ pub enum LightKind {
     Spot {
         /// Unit axis of the cone, away from the light.
         direction: DVec3,
-        /// Half-angle, radians, inside which the light is full.
+        /// Half-angle, radians, inside which the light is full; at least zero.
         inner_angle: f64,
         /// Half-angle, radians, outside which there is none; above `inner_angle`, at most π/2.
         outer_angle: f64,
@@ -178,7 +186,7 @@ pub enum Shape {
         /// Radius.
         radius: f64,
     },
-    /// A flat triangle with any three vertices.
+    /// A flat triangle with any three vertices that are not on one line.
     Triangle {
         /// Its corners.
         vertices: [DVec3; 3],
@@ -232,7 +240,7 @@ pub enum Shape {
     Mesh(std::sync::Arc<Mesh>),
 }
 
-/// An indexed triangle mesh.
+/// An indexed triangle mesh. It has at least one triangle, and none without area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// Path as the scene file wrote it.

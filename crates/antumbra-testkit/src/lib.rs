@@ -1,1 +1,9 @@
-//! antumbra-testkit
+//! What the tests and benchmarks of antumbra share: image metrics and random scenes.
+//!
+//! The metrics keep away from two mistakes: measuring over the whole image, where lit pixels hide the
+//! error at the edges, and counting pixels that no image can get right, because an edge runs through
+//! them.
+#![forbid(unsafe_code)]
+
+pub mod metrics;
+pub mod random_scene;

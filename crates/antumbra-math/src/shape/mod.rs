@@ -1,5 +1,6 @@
 //! The shapes, posed in the world. A type a file.
 
+mod bounds;
 mod cone;
 mod disc;
 mod plane;
@@ -30,3 +31,14 @@ pub enum Shape {
     /// A solid cone.
     Cone(Cone),
 }
+
+macro_rules! into_shape {
+    ($($shape:ident),*) => {$(
+        impl From<$shape> for Shape {
+            fn from(shape: $shape) -> Self {
+                Self::$shape(shape)
+            }
+        }
+    )*};
+}
+into_shape!(Plane, Rectangle, Disc, Triangle, Sphere, Cone);

@@ -1,4 +1,4 @@
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 
 /// An infinite plane: the points with `normal · p = offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,5 +18,11 @@ impl Plane {
     /// Signed distance of `point`, positive on the side of the normal, metres.
     pub fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
+    }
+
+    /// The plane after the rigid motion `transform` (rotation and translation only).
+    pub fn transformed(&self, transform: &DMat4) -> Self {
+        let point = transform.transform_point3(self.normal * self.offset);
+        Self::through(point, transform.transform_vector3(self.normal))
     }
 }

@@ -1,0 +1,87 @@
+//! The commands, one file each.
+
+mod check;
+mod demo;
+mod info;
+mod render;
+mod trace;
+
+use antumbra_scene::Scene;
+
+use crate::args::{Cli, Command, DemoArgs, PictureArgs, Size};
+use crate::draw::{Drawing, Request};
+use crate::error::CliError;
+use crate::output::Picture;
+use crate::output::plan::Plan;
+use crate::report;
+
+/// The most visibility values that are held at a time, lights times pixels: 2 GB as 32-bit float.
+const MAX_VISIBILITY: u64 = 1 << 29;
+
+/// Does what the command line says.
+///
+/// # Errors
+/// Whatever ends the command early.
+pub(crate) fn run(cli: Cli) -> Result<(), CliError> {
+    match cli.command.unwrap_or_else(|| Command::Demo(DemoArgs::default())) {
+        Command::Demo(arguments) => demo::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Trace(arguments) => trace::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+    }
+}
+
+/// One scene to one picture, everything about it checked.
+struct Job {
+    scene: Scene,
+    size: Size,
+    plan: Plan,
+}
+
+impl Job {
+    /// Reads the scene and checks size and files, before the long work.
+    fn new(arguments: &PictureArgs) -> Result<Self, CliError> {
+        let scene = Scene::load(&arguments.scene)?;
+        let size = match arguments.size {
+            Some(size) => size,
+            None => Size::new(scene.image.width, scene.image.height)
+                .map_err(|what| CliError::Usage(format!("the scene's own size: {what}; use --size")))?,
+        };
+        if arguments.visibility.is_some() && size.pixels() * scene.lights.len() as u64 > MAX_VISIBILITY {
+            return Err(CliError::Usage(format!(
+                "{} visibilities of {}x{} are too large; give a smaller --size",
+                scene.lights.len(),
+                size.width,
+                size.height
+            )));
+        }
+        let visibility = arguments.visibility.as_deref();
+        let plan = Plan::new(&arguments.scene, &arguments.output, visibility, &scene.lights)?;
+        Ok(Self { scene, size, plan })
+    }
+
+    fn request(&self, arguments: &PictureArgs) -> Request<'_> {
+        Request {
+            scene: &self.scene,
+            size: self.size,
+            time: arguments.time,
+            visibility: arguments.visibility.is_some(),
+        }
+    }
+
+    /// Writes the files; returns their names.
+    fn write(self, drawing: &Drawing) -> Result<Vec<String>, CliError> {
+        let picture = picture(&self.scene, self.size, drawing);
+        Ok(report::texts(&self.plan.write(&picture, &drawing.visibility)?))
+    }
+}
+
+fn picture<'a>(scene: &Scene, size: Size, drawing: &'a Drawing) -> Picture<'a> {
+    Picture {
+        width: size.width,
+        height: size.height,
+        pixels: &drawing.pixels,
+        exposure: scene.image.exposure,
+    }
+}

@@ -1,0 +1,203 @@
+//! The OpenGL objects a renderer owns: made when first needed, grown, never made in a steady frame.
+
+use crate::{Caps, Error};
+use glow::HasContext;
+
+/// A colour target with its framebuffer.
+pub(crate) struct Target {
+    pub(crate) texture: glow::Texture,
+    pub(crate) framebuffer: glow::Framebuffer,
+    width: i32,
+    height: i32,
+    samples: u32,
+}
+
+/// What a target stores.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TargetFormat {
+    /// 8 bits a channel, for hard visibilities.
+    Rgba8,
+    /// float32, for sums.
+    Rgba32F,
+}
+
+impl Target {
+    /// Makes `slot` hold a target of this size, unless it does already.
+    ///
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive: bindings are changed.
+    pub(crate) unsafe fn ensure(
+        slot: &mut Option<Self>,
+        gl: &glow::Context,
+        format: TargetFormat,
+        (width, height): (i32, i32),
+        samples: u32,
+    ) -> Result<(), Error> {
+        if slot.as_ref().is_some_and(|t| (t.width, t.height, t.samples) == (width, height, samples)) {
+            return Ok(());
+        }
+        // SAFETY: the caller's; every object is deleted if the next one cannot be made.
+        unsafe {
+            if let Some(old) = slot.take() {
+                old.delete(gl);
+            }
+            let refused = || Error::Resource {
+                what: format!("a {width}x{height} {format:?} render target with {samples} samples"),
+            };
+            let texture = gl.create_texture().map_err(|_| refused())?;
+            let Ok(framebuffer) = gl.create_framebuffer() else {
+                gl.delete_texture(texture);
+                return Err(refused());
+            };
+            let internal = match format {
+                TargetFormat::Rgba8 => glow::RGBA8,
+                TargetFormat::Rgba32F => glow::RGBA32F,
+            };
+            let kind = if samples > 1 { glow::TEXTURE_2D_MULTISAMPLE } else { glow::TEXTURE_2D };
+            gl.bind_texture(kind, Some(texture));
+            if samples > 1 {
+                gl.tex_image_2d_multisample(kind, samples as i32, internal as i32, width, height, true);
+            } else {
+                texture_storage(gl, internal, width, height);
+            }
+            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(framebuffer));
+            gl.framebuffer_texture_2d(glow::DRAW_FRAMEBUFFER, glow::COLOR_ATTACHMENT0, kind, Some(texture), 0);
+            let target = Self { texture, framebuffer, width, height, samples };
+            if gl.check_framebuffer_status(glow::DRAW_FRAMEBUFFER) != glow::FRAMEBUFFER_COMPLETE {
+                target.delete(gl);
+                return Err(refused());
+            }
+            *slot = Some(target);
+        }
+        Ok(())
+    }
+
+    /// # Safety
+    /// The target is of this context and not used afterwards.
+    pub(crate) unsafe fn delete(self, gl: &glow::Context) {
+        // SAFETY: the caller's.
+        unsafe {
+            gl.delete_framebuffer(self.framebuffer);
+            gl.delete_texture(self.texture);
+        }
+    }
+}
+
+/// One level of texels that are fetched, never filtered.
+///
+/// # Safety
+/// A texture of this context is bound to `TEXTURE_2D`.
+unsafe fn texture_storage(gl: &glow::Context, internal: u32, width: i32, height: i32) {
+    let kind = if internal == glow::RGBA8 { glow::UNSIGNED_BYTE } else { glow::FLOAT };
+    let none = glow::PixelUnpackData::Slice(None);
+    // SAFETY: the caller's; no memory of ours is read.
+    unsafe {
+        gl.tex_image_2d(glow::TEXTURE_2D, 0, internal as i32, width, height, 0, glow::RGBA, kind, none);
+        for (name, value) in [
+            (glow::TEXTURE_MIN_FILTER, glow::NEAREST),
+            (glow::TEXTURE_MAG_FILTER, glow::NEAREST),
+            (glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE),
+            (glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE),
+        ] {
+            gl.tex_parameter_i32(glow::TEXTURE_2D, name, value as i32);
+        }
+        gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_MAX_LEVEL, 0);
+    }
+}
+
+/// Texels in a row of a data texture.
+const ROW: usize = 1024;
+
+/// Vertices and blocker data of one batch.
+pub(crate) struct Upload {
+    pub(crate) vertex_array: glow::VertexArray,
+    pub(crate) texture: glow::Texture,
+    buffer: glow::Buffer,
+    buffer_bytes: usize,
+    rows: usize,
+}
+
+impl Upload {
+    /// Empty storage; `stride` is the vertex's: two floats, then two unsigned integers.
+    ///
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive: bindings are changed.
+    pub(crate) unsafe fn new(gl: &glow::Context, stride: i32) -> Result<Self, Error> {
+        let refused = |what: &str| Error::Resource { what: what.into() };
+        // SAFETY: the caller's; every object is deleted if the next one cannot be made.
+        unsafe {
+            let vertex_array = gl.create_vertex_array().map_err(|_| refused("a vertex array"))?;
+            let Ok(buffer) = gl.create_buffer() else {
+                gl.delete_vertex_array(vertex_array);
+                return Err(refused("a vertex buffer"));
+            };
+            let Ok(texture) = gl.create_texture() else {
+                gl.delete_vertex_array(vertex_array);
+                gl.delete_buffer(buffer);
+                return Err(refused("a data texture"));
+            };
+            gl.bind_vertex_array(Some(vertex_array));
+            gl.bind_buffer(glow::ARRAY_BUFFER, Some(buffer));
+            gl.enable_vertex_attrib_array(0);
+            gl.vertex_attrib_pointer_f32(0, 2, glow::FLOAT, false, stride, 0);
+            gl.enable_vertex_attrib_array(1);
+            gl.vertex_attrib_pointer_i32(1, 2, glow::UNSIGNED_INT, stride, 8);
+            Ok(Self { vertex_array, texture, buffer, buffer_bytes: 0, rows: 0 })
+        }
+    }
+
+    /// Uploads one batch; storage doubles when it is too small.
+    ///
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive: bindings are changed.
+    pub(crate) unsafe fn fill(
+        &mut self,
+        gl: &glow::Context,
+        caps: &Caps,
+        vertices: &[u8],
+        texels: &mut Vec<glam::Vec4>,
+    ) -> Result<(), Error> {
+        let rows = texels.len().div_ceil(ROW).max(1);
+        if rows > caps.max_texture_size as usize {
+            return Err(Error::Unsupported { what: "this many occluders", needs: "larger textures" });
+        }
+        texels.resize(rows * ROW, glam::Vec4::ZERO);
+        // SAFETY: the caller's; the slices outlive the calls, and texels fill whole rows.
+        unsafe {
+            gl.bind_buffer(glow::ARRAY_BUFFER, Some(self.buffer));
+            if vertices.len() > self.buffer_bytes {
+                self.buffer_bytes = vertices.len().next_power_of_two();
+                gl.buffer_data_size(glow::ARRAY_BUFFER, self.buffer_bytes as i32, glow::STREAM_DRAW);
+            }
+            gl.buffer_sub_data_u8_slice(glow::ARRAY_BUFFER, 0, vertices);
+            gl.bind_texture(glow::TEXTURE_2D, Some(self.texture));
+            if rows > self.rows {
+                self.rows = rows.next_power_of_two().min(caps.max_texture_size as usize);
+                texture_storage(gl, glow::RGBA32F, ROW as i32, self.rows as i32);
+            }
+            gl.tex_sub_image_2d(
+                glow::TEXTURE_2D,
+                0,
+                0,
+                0,
+                ROW as i32,
+                rows as i32,
+                glow::RGBA,
+                glow::FLOAT,
+                glow::PixelUnpackData::Slice(Some(bytemuck::cast_slice(texels))),
+            );
+        }
+        Ok(())
+    }
+
+    /// # Safety
+    /// The upload is of this context and not used afterwards.
+    pub(crate) unsafe fn delete(&self, gl: &glow::Context) {
+        // SAFETY: the caller's.
+        unsafe {
+            gl.delete_vertex_array(self.vertex_array);
+            gl.delete_buffer(self.buffer);
+            gl.delete_texture(self.texture);
+        }
+    }
+}

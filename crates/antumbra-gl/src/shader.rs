@@ -1,0 +1,213 @@
+//! The shader programs: every permutation is data in one list, compiled at start-up.
+
+use crate::frame::Surface;
+use crate::{Caps, Error};
+use glow::HasContext;
+
+/// The parts a stage is put together from, in order.
+pub(crate) struct Stage {
+    /// Preprocessor lines before everything else.
+    pub(crate) defines: &'static str,
+    /// Sources.
+    pub(crate) parts: &'static [&'static str],
+}
+
+/// One program: its name and stages.
+pub(crate) struct ProgramSource {
+    /// For error messages.
+    pub(crate) name: &'static str,
+    vertex: Stage,
+    fragment: Stage,
+}
+
+const COVERAGE: &str = include_str!("shaders/coverage.glsl");
+const SURFACE: &str = include_str!("shaders/surface.glsl");
+const SCREEN: &str = include_str!("shaders/screen.vert.glsl");
+const LIGHTS: &str = include_str!("shaders/lights.glsl");
+const BLOCKER_VERTEX: &str = include_str!("shaders/blocker.vert.glsl");
+const BLOCKER_DATA: &str = include_str!("shaders/blocker_data.glsl");
+const BLOCKER_FRAGMENT: &str = include_str!("shaders/blocker.frag.glsl");
+const IRRADIANCE: &str = include_str!("shaders/irradiance.frag.glsl");
+const RATIO: &str = include_str!("shaders/ratio.frag.glsl");
+
+macro_rules! blocker_program {
+    ($name:literal, $texels:literal, $file:literal) => {
+        ProgramSource {
+            name: $name,
+            vertex: Stage {
+                defines: concat!("#define BLOCKER_TEXELS ", $texels, "\n"),
+                parts: &[BLOCKER_VERTEX],
+            },
+            fragment: Stage {
+                defines: concat!("#define BLOCKER_TEXELS ", $texels, "\n"),
+                parts: &[COVERAGE, SURFACE, BLOCKER_DATA, include_str!($file), BLOCKER_FRAGMENT],
+            },
+        }
+    };
+}
+
+const fn screen_program(name: &'static str, defines: &'static str, parts: &'static [&'static str]) -> ProgramSource {
+    ProgramSource { name, vertex: Stage { defines: "", parts: &[SCREEN] }, fragment: Stage { defines, parts } }
+}
+
+/// What the host's surface is made of. Every program exists for each variant: choosing in the
+/// shader would cost software renderers, which run both sides of a branch, a multiple of the time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Variant {
+    pub(crate) multisample: bool,
+    pub(crate) normals: bool,
+    pub(crate) ids: bool,
+}
+
+impl Variant {
+    pub(crate) const COUNT: usize = 8;
+
+    /// The variant for a surface.
+    pub(crate) fn of(surface: &Surface) -> Self {
+        Self {
+            multisample: surface.samples > 1,
+            normals: surface.normals.is_some(),
+            ids: surface.ids.is_some(),
+        }
+    }
+
+    /// Below [`Variant::COUNT`].
+    pub(crate) fn index(self) -> usize {
+        usize::from(self.multisample) * 4 + usize::from(self.normals) * 2 + usize::from(self.ids)
+    }
+
+    /// All variants, by index.
+    #[cfg(test)]
+    pub(crate) fn all() -> impl Iterator<Item = Self> {
+        (0..Self::COUNT).map(|i| Self { multisample: i & 4 != 0, normals: i & 2 != 0, ids: i & 1 != 0 })
+    }
+}
+
+/// Every program, in the order of [`ProgramId`].
+pub(crate) const PROGRAMS: [ProgramSource; 7] = [
+    blocker_program!("sphere", "2", "shaders/sphere.glsl"),
+    blocker_program!("disc", "3", "shaders/disc.glsl"),
+    blocker_program!("polygon", "5", "shaders/polygon.glsl"),
+    screen_program("overlay", "#define OVERLAY\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
+    screen_program("taken", "#define TAKEN\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
+    screen_program("all", "#define ALL\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
+    screen_program("ratio", "", &[COVERAGE, SURFACE, RATIO]),
+];
+
+/// Indices into [`PROGRAMS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(usize)]
+pub(crate) enum ProgramId {
+    Sphere,
+    Disc,
+    Polygon,
+    Overlay,
+    Taken,
+    All,
+    Ratio,
+}
+
+impl ProgramSource {
+    /// The two stages' whole sources.
+    pub(crate) fn sources(&self, embedded: bool, variant: Variant) -> [String; 2] {
+        [&self.vertex, &self.fragment].map(|stage| {
+            let mut source = String::from(if embedded {
+                include_str!("shaders/header_300es.glsl")
+            } else {
+                "#version 330 core\n"
+            });
+            if variant.multisample {
+                source.push_str("#extension GL_ARB_sample_shading : require\n#define MULTISAMPLE\n");
+            }
+            if variant.normals {
+                source.push_str("#define NORMALS\n");
+            }
+            if variant.ids {
+                source.push_str("#define IDS\n");
+            }
+            source.push_str(stage.defines);
+            stage.parts.iter().for_each(|part| source.push_str(part));
+            source
+        })
+    }
+}
+
+/// A linked program and where its uniforms are.
+pub(crate) struct Program {
+    pub(crate) raw: glow::Program,
+    pub(crate) uniforms: Uniforms,
+}
+
+macro_rules! uniforms {
+    ($($field:ident),* $(,)?) => {
+        /// Locations; `None` for uniforms a program does not have, which OpenGL ignores.
+        #[derive(Clone, Default)]
+        pub(crate) struct Uniforms {
+            $(pub(crate) $field: Option<glow::UniformLocation>,)*
+        }
+
+        impl Uniforms {
+            /// # Safety
+            /// `program` is a linked program of the context.
+            unsafe fn find(gl: &glow::Context, program: glow::Program) -> Self {
+                // SAFETY: the caller's.
+                unsafe {
+                    Self { $($field: gl.get_uniform_location(program, concat!("u_", stringify!($field))),)* }
+                }
+            }
+        }
+    };
+}
+
+uniforms!(
+    depth, normals, ids, unproject, pixel_step, background_depth, surface_offset, surface_last, normal_to_view,
+    normal_decode, blockers, visibility_0, visibility_1, visibility_offset, ambient, gamma, lights,
+    light_count, all, taken,
+);
+
+impl Program {
+    /// Compiles and links one program.
+    pub(crate) fn new(
+        gl: &glow::Context,
+        caps: &Caps,
+        source: &ProgramSource,
+        variant: Variant,
+    ) -> Result<Self, Error> {
+        let raw = link(gl, source.name, &source.sources(!caps.is_desktop(), variant))?;
+        // SAFETY: linked above.
+        let uniforms = unsafe { Uniforms::find(gl, raw) };
+        Ok(Self { raw, uniforms })
+    }
+}
+
+/// Compiles and links a vertex and a fragment shader, leaving no object behind on failure.
+pub(crate) fn link(gl: &glow::Context, name: &'static str, sources: &[String; 2]) -> Result<glow::Program, Error> {
+    let refused = |what: &str| Error::Resource { what: format!("a {what} for {name}") };
+    // SAFETY: objects are made, used and deleted in this context; every one is valid when used.
+    unsafe {
+        let program = gl.create_program().map_err(|_| refused("program"))?;
+        for (kind, source) in [glow::VERTEX_SHADER, glow::FRAGMENT_SHADER].into_iter().zip(sources) {
+            let Ok(shader) = gl.create_shader(kind) else {
+                gl.delete_program(program);
+                return Err(refused("shader"));
+            };
+            gl.shader_source(shader, source);
+            gl.compile_shader(shader);
+            if !gl.get_shader_compile_status(shader) {
+                let log = gl.get_shader_info_log(shader);
+                gl.delete_shader(shader);
+                gl.delete_program(program);
+                return Err(Error::Shader { name, log });
+            }
+            gl.attach_shader(program, shader);
+            gl.delete_shader(shader); // lives on while it is attached
+        }
+        gl.link_program(program);
+        if !gl.get_program_link_status(program) {
+            let log = gl.get_program_info_log(program);
+            gl.delete_program(program);
+            return Err(Error::Shader { name, log });
+        }
+        Ok(program)
+    }
+}

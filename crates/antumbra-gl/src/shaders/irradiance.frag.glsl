@@ -1,0 +1,58 @@
+// What this batch's lights send to the surface, and how much of it the shadows take.
+//
+// OVERLAY: the factor on the host's pixels, when one batch holds all lights.
+// TAKEN:   what shadows take, to be added up over the batches.
+// ALL:     what the lights send, to be added up over the batches, where shadows take anything.
+
+#ifndef ALL
+uniform highp SURFACE_SAMPLER u_visibility_0;
+uniform highp SURFACE_SAMPLER u_visibility_1;
+#else
+uniform highp SURFACE_SAMPLER u_taken;
+#endif
+uniform ivec2 u_visibility_offset;  // from this target's pixel to the visibility textures' texel
+uniform vec3 u_ambient;
+uniform float u_gamma;              // the host's pixels are radiance^(1/gamma)
+
+layout(location = 0) out vec4 o_result;
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy) + u_visibility_offset;
+#ifdef ALL
+    if (texelFetch(u_taken, texel, SURFACE_INDEX).rgb == vec3(0.0)) {
+        discard;
+    }
+    float visibility[BATCH_LIGHTS] = float[BATCH_LIGHTS](1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0);
+#else
+    vec4 v0 = texelFetch(u_visibility_0, texel, SURFACE_INDEX);
+    vec4 v1 = texelFetch(u_visibility_1, texel, SURFACE_INDEX);
+    if (v0 == vec4(1.0) && v1 == vec4(1.0)) {
+        discard;
+    }
+    float visibility[BATCH_LIGHTS] = float[BATCH_LIGHTS](v0.x, v0.y, v0.z, v0.w, v1.x, v1.y, v1.z, v1.w);
+#endif
+    SurfacePoint s;
+    if (!surface_point(s)) {
+        discard;
+    }
+    vec3 normal = surface_normal(s);
+    vec3 all = vec3(0.0);
+    vec3 taken = vec3(0.0);
+    for (int i = 0; i < BATCH_LIGHTS; i++) {
+        if (i >= u_light_count) {
+            break;
+        }
+        vec3 e = irradiance(u_lights[i * 4], u_lights[i * 4 + 1].rgb, u_lights[i * 4 + 2], u_lights[i * 4 + 3],
+                            s.position, normal);
+        all += e;
+        taken += e * (1.0 - visibility[i]);
+    }
+#ifdef OVERLAY
+    vec3 ratio = 1.0 - taken / max(all + u_ambient, vec3(1e-30));
+    o_result = vec4(host_factor(ratio, u_gamma), 1.0);
+#elif defined(TAKEN)
+    o_result = vec4(taken, 1.0);
+#else
+    o_result = vec4(all, 1.0);
+#endif
+}

@@ -1,0 +1,35 @@
+// A ball between a point and a light. Twin: antumbra_math::blocking::sphere_coverage.
+
+struct SphereBlocker {
+    vec3 center;
+    float radius;
+    vec3 light;     // position, or direction towards the light
+    float light_w;  // 1 for a position, 0 for a direction
+};
+
+// `solid`: points inside the ball are dark. Without object ids such a point is the host's
+// tessellation of this very ball, and its side of the ball decides.
+float sphere_coverage(SphereBlocker b, Footprint footprint, bool solid) {
+    vec3 to_center = b.center - footprint.point;
+    if (solid && dot(to_center, to_center) < b.radius * b.radius) {
+        return 1.0;
+    }
+    vec3 to_light = b.light - footprint.point * b.light_w;
+    float distance = length(to_light);
+    vec3 direction = to_light * (1.0 / distance);
+    float along = dot(to_center, direction);
+    if (!(along > 0.0) || along * b.light_w >= distance) {
+        return 0.0;
+    }
+    // The distance of the line from the centre as a vector product: the discriminant cancels.
+    float miss = length(cross(direction, to_center));
+    vec3 nearest = to_center - direction * along;
+    float lever = 1.0 - b.light_w * along / distance;
+    vec3 gradient = nearest * (lever / max(miss, 1e-30));
+    return edge_coverage(b.radius - miss, gradient, footprint);
+}
+
+float blocker_coverage(Footprint footprint, SurfacePoint surface) {
+    SphereBlocker b = SphereBlocker(BLOCKER_DATA[0].xyz, BLOCKER_DATA[0].w, BLOCKER_DATA[1].xyz, BLOCKER_DATA[1].w);
+    return sphere_coverage(b, footprint, surface.has_id);
+}

@@ -1,0 +1,230 @@
+//! Pictures and visibilities read back from the stage.
+
+use crate::stage::{Setting, Stage};
+use crate::targets::ColorFormat;
+use crate::HostError;
+use antumbra::glam::{DVec3, Vec3};
+use antumbra::math::blocking::half_plane_coverage;
+use antumbra::{BATCH_LIGHTS, ShaderLight};
+use antumbra_scene::Scene;
+use glow::{HasContext, PixelPackData};
+
+/// What to draw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RenderOptions {
+    /// Seconds since the motions' start.
+    pub time: f64,
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Samples a pixel of the picture; visibilities are always of pixel centres.
+    pub msaa: u32,
+    /// Whether to return visibilities.
+    pub visibility: bool,
+    /// Whether the picture has shadows.
+    pub shadows: bool,
+}
+
+/// A picture, rows from top to bottom.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rendered {
+    /// Linear radiance, no exposure.
+    pub image: Vec<[f32; 3]>,
+    /// For each light, the visibility of the surface seen through each pixel's centre.
+    pub visibility: Vec<Vec<f32>>,
+    /// What the shadow renderer did for the picture.
+    pub stats: antumbra::Stats,
+}
+
+impl Stage {
+    /// Draws a scene and reads it back.
+    ///
+    /// # Errors
+    /// [`HostError::Unsupported`] names what cannot be drawn; see also [`Stage::draw`].
+    pub fn render(&mut self, scene: &Scene, options: &RenderOptions) -> Result<Rendered, HostError> {
+        let RenderOptions { width, height, .. } = *options;
+        let setting = Setting::new(scene, options.time, f64::from(width) / f64::from(height))?;
+        self.draw(&setting, width, height, options.msaa, ColorFormat::Rgba16F)?;
+        if options.shadows {
+            self.add_shadows(&setting)?;
+        }
+        let stats = self.shadows().stats();
+        let image = self.read_color()?;
+        let visibility = if options.visibility {
+            if options.msaa > 1 {
+                self.draw(&setting, width, height, 1, ColorFormat::Rgba16F)?;
+            }
+            self.read_visibility(&setting)?
+        } else {
+            Vec::new()
+        };
+        Ok(Rendered { image, visibility, stats })
+    }
+
+    /// The colour, linear, rows from top to bottom.
+    fn read_color(&self) -> Result<Vec<[f32; 3]>, HostError> {
+        let gl = &self.gl;
+        let Some(targets) = &self.targets else { return Ok(Vec::new()) };
+        let (width, height, ..) = targets.key;
+        // SAFETY: reads into memory of the right size from a framebuffer of this stage.
+        let pixels: Vec<[f32; 4]> = unsafe {
+            let source = match targets.resolved {
+                None => targets.color_only,
+                Some((_, resolved)) => {
+                    gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(targets.color_only));
+                    gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(resolved));
+                    gl.blit_framebuffer(0, 0, width, height, 0, 0, width, height, glow::COLOR_BUFFER_BIT, glow::NEAREST);
+                    resolved
+                }
+            };
+            gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(source));
+            read(gl, width, height, glow::RGBA, glow::FLOAT)
+        };
+        check(gl)?;
+        Ok(flip(&pixels, width as usize).map(|[r, g, b, _]| [r, g, b]).collect())
+    }
+
+    /// The visibilities of all lights, 8 at a time.
+    fn read_visibility(&mut self, setting: &Setting) -> Result<Vec<Vec<f32>>, HostError> {
+        let Some(frame) = self.frame(setting) else { return Ok(Vec::new()) };
+        let gl = self.gl.clone();
+        let surface = self.read_surface(setting)?;
+        let [_, _, width, height] = frame.viewport;
+        let mut visibility = vec![Vec::new(); setting.described.lights.len()];
+        // SAFETY: a fresh framebuffer, deleted below.
+        let framebuffer = unsafe { gl.create_framebuffer() }.map_err(HostError::Driver)?;
+        let result = self.shadows.masks(&frame, |batch| {
+            for (t, &texture) in batch.textures.iter().enumerate() {
+                // SAFETY: reads a texture that antumbra just filled into memory of its size.
+                let pixels: Vec<[u8; 4]> = unsafe {
+                    gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(framebuffer));
+                    gl.framebuffer_texture_2d(
+                        glow::READ_FRAMEBUFFER,
+                        glow::COLOR_ATTACHMENT0,
+                        glow::TEXTURE_2D,
+                        Some(texture),
+                        0,
+                    );
+                    read(&gl, width, height, glow::RGBA, glow::UNSIGNED_BYTE)
+                };
+                let channels = batch.lights.saturating_sub(t * 4).min(4);
+                for channel in 0..channels {
+                    let light = batch.first_light + t * (BATCH_LIGHTS / 2) + channel;
+                    let facing = surface.facing(&setting.described.lights[light], setting);
+                    visibility[light] = flip(&pixels, width as usize)
+                        .zip(flip(&facing, width as usize))
+                        .map(|(texel, facing)| (f32::from(texel[channel]) / 255.0).min(facing))
+                        .collect();
+                }
+            }
+        });
+        // SAFETY: made above.
+        unsafe { gl.delete_framebuffer(framebuffer) };
+        result?;
+        check(&gl)?;
+        Ok(visibility)
+    }
+
+    fn read_surface(&self, setting: &Setting) -> Result<SurfaceCopy, HostError> {
+        let gl = &self.gl;
+        let Some(targets) = &self.targets else { return Err(HostError::Driver("nothing was drawn".into())) };
+        let (width, height, ..) = targets.key;
+        // SAFETY: reads into memory of the right size from a framebuffer of this stage.
+        let (normals, ids) = unsafe {
+            gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(targets.all));
+            gl.read_buffer(glow::COLOR_ATTACHMENT1);
+            let normals: Vec<[f32; 4]> = read(gl, width, height, glow::RGBA, glow::FLOAT);
+            // OpenGL ES reads unsigned integers as four components.
+            gl.read_buffer(glow::COLOR_ATTACHMENT2);
+            let ids: Vec<[u32; 4]> = read(gl, width, height, glow::RGBA_INTEGER, glow::UNSIGNED_INT);
+            gl.read_buffer(glow::COLOR_ATTACHMENT0);
+            (normals, ids)
+        };
+        check(gl)?;
+        let [px, py] = [setting.camera.projection.x_axis.x, setting.camera.projection.y_axis.y];
+        let positions = normals
+            .iter()
+            .enumerate()
+            .map(|(i, &[.., distance])| {
+                let (x, y) = ((i % width as usize) as f64 + 0.5, (i / width as usize) as f64 + 0.5);
+                let sight = DVec3::new(
+                    (2.0 * x / f64::from(width) - 1.0) / px,
+                    (2.0 * y / f64::from(height) - 1.0) / py,
+                    -1.0,
+                );
+                (sight * f64::from(distance)).as_vec3()
+            })
+            .collect();
+        let normals = normals.iter().map(|n| Vec3::new(n[0], n[1], n[2])).collect();
+        Ok(SurfaceCopy { width: width as usize, positions, normals, ids: ids.iter().map(|id| id[0]).collect() })
+    }
+}
+
+/// The stage's surface on the CPU, rows from bottom to top, view space.
+struct SurfaceCopy {
+    width: usize,
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    ids: Vec<u32>,
+}
+
+impl SurfaceCopy {
+    /// How much of each pixel faces the light, antialiased inside each primitive.
+    fn facing(&self, light: &antumbra::Light, setting: &Setting) -> Vec<f32> {
+        let light = ShaderLight::new(light, &setting.camera.view);
+        let cosine = |i: usize| {
+            let to_light = light.place.truncate() - self.positions[i] * light.place.w;
+            self.normals[i].dot(to_light.normalize_or_zero())
+        };
+        let slope = |i: usize, step: usize, inside: bool| {
+            let same = |j: usize| inside && self.ids.get(j) == self.ids.get(i);
+            match (same(i.wrapping_sub(step)), same(i + step)) {
+                (true, true) => (cosine(i + step) - cosine(i - step)) * 0.5,
+                (true, false) => cosine(i) - cosine(i - step),
+                (false, true) => cosine(i + step) - cosine(i),
+                (false, false) => 0.0,
+            }
+        };
+        (0..self.ids.len())
+            .map(|i| {
+                if self.ids[i] == 0 {
+                    return 1.0;
+                }
+                let x = i % self.width;
+                let value = cosine(i);
+                if value.abs() > 0.5 {
+                    return if value > 0.0 { 1.0 } else { 0.0 };
+                }
+                let inside = x > 0 && x + 1 < self.width;
+                half_plane_coverage(value, slope(i, 1, inside), slope(i, self.width, true))
+            })
+            .collect()
+    }
+}
+
+/// # Safety
+/// A framebuffer of this size that can be read in this format is bound; `T` is one pixel of it.
+unsafe fn read<T: bytemuck::Pod>(gl: &glow::Context, width: i32, height: i32, layout: u32, kind: u32) -> Vec<T> {
+    let mut pixels = vec![T::zeroed(); width as usize * height as usize];
+    let bytes = PixelPackData::Slice(Some(bytemuck::cast_slice_mut(&mut pixels)));
+    // SAFETY: the caller's.
+    unsafe {
+        gl.pixel_store_i32(glow::PACK_ALIGNMENT, 4);
+        gl.read_pixels(0, 0, width, height, layout, kind, bytes);
+    }
+    pixels
+}
+
+fn flip<T: Copy>(pixels: &[T], width: usize) -> impl Iterator<Item = T> + '_ {
+    pixels.chunks_exact(width).rev().flatten().copied()
+}
+
+fn check(gl: &glow::Context) -> Result<(), HostError> {
+    // SAFETY: asks for the error flag.
+    match unsafe { gl.get_error() } {
+        glow::NO_ERROR => Ok(()),
+        glow::OUT_OF_MEMORY => Err(HostError::Driver("out of memory".into())),
+        error => Err(HostError::Driver(format!("error 0x{error:x}"))),
+    }
+}

@@ -1,0 +1,82 @@
+//! The host's one shader program.
+
+use crate::HostError;
+use glow::HasContext;
+
+/// Lights in one pass: what the smallest uniform block that OpenGL allows can hold.
+pub(crate) const MAX_LIGHTS: usize = 256;
+
+/// Draws primitives.
+pub(crate) struct Program {
+    pub(crate) raw: glow::Program,
+    pub(crate) uniforms: Uniforms,
+}
+
+macro_rules! uniforms {
+    ($($field:ident),* $(,)?) => {
+        /// Uniform locations.
+        pub(crate) struct Uniforms {
+            $(pub(crate) $field: Option<glow::UniformLocation>,)*
+        }
+
+        impl Uniforms {
+            /// # Safety
+            /// `program` is a linked program of the context.
+            unsafe fn find(gl: &glow::Context, program: glow::Program) -> Self {
+                // SAFETY: the caller's.
+                unsafe {
+                    Self { $($field: gl.get_uniform_location(program, concat!("u_", stringify!($field))),)* }
+                }
+            }
+        }
+    };
+}
+
+uniforms!(
+    projection, to_view, center, half_size, eye, from_view, window, depth, shape, size, triangle, albedo, ambient, id,
+    light_count,
+);
+
+impl Program {
+    /// Compiles and links it.
+    pub(crate) fn new(gl: &glow::Context, multisample: bool) -> Result<Self, HostError> {
+        let header = match (gl.version().is_embedded, multisample) {
+            (true, _) => "#version 300 es\nprecision highp float;\nprecision highp int;\n",
+            (false, false) => "#version 330 core\n",
+            (false, true) => {
+                "#version 330 core\n#extension GL_ARB_sample_shading : require\n#define MULTISAMPLE\n"
+            }
+        };
+        let stages = [
+            (glow::VERTEX_SHADER, include_str!("shaders/primitive.vert.glsl")),
+            (glow::FRAGMENT_SHADER, include_str!("shaders/primitive.frag.glsl")),
+        ];
+        // SAFETY: objects are made, used and deleted in this context.
+        unsafe {
+            let raw = gl.create_program().map_err(HostError::Driver)?;
+            for (kind, source) in stages {
+                let shader = gl.create_shader(kind).map_err(HostError::Driver)?;
+                gl.shader_source(shader, &format!("{header}#define MAX_LIGHTS {MAX_LIGHTS}\n{source}"));
+                gl.compile_shader(shader);
+                let failed = !gl.get_shader_compile_status(shader);
+                let log = gl.get_shader_info_log(shader);
+                gl.attach_shader(raw, shader);
+                gl.delete_shader(shader);
+                if failed {
+                    gl.delete_program(raw);
+                    return Err(HostError::Driver(log));
+                }
+            }
+            gl.link_program(raw);
+            if !gl.get_program_link_status(raw) {
+                let log = gl.get_program_info_log(raw);
+                gl.delete_program(raw);
+                return Err(HostError::Driver(log));
+            }
+            if let Some(block) = gl.get_uniform_block_index(raw, "Lights") {
+                gl.uniform_block_binding(raw, block, 0);
+            }
+            Ok(Self { raw, uniforms: Uniforms::find(gl, raw) })
+        }
+    }
+}

@@ -1,0 +1,354 @@
+//! Draws a scene without shadows.
+
+use crate::program::{MAX_LIGHTS, Program};
+use crate::targets::{ColorFormat, Targets};
+use crate::describe::{Described, describe};
+use crate::HostError;
+use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3, Vec3Swizzles, Vec4};
+use antumbra::math::Plane;
+use antumbra::{Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface};
+use antumbra_scene::{Moment, Primitive, Scene, Shape};
+use glow::HasContext;
+use std::f32::consts::PI;
+use std::sync::Arc;
+
+/// The host: draws scenes plainly and keeps a shadow renderer beside it.
+pub struct Stage {
+    pub(crate) gl: Arc<glow::Context>,
+    pub(crate) shadows: antumbra::Renderer,
+    program: Program,
+    multisample_program: Option<Program>,
+    vertex_array: glow::VertexArray,
+    lights: glow::Buffer,
+    pub(crate) targets: Option<Targets>,
+}
+
+/// A scene at one moment, ready to be drawn any number of times.
+pub struct Setting {
+    /// The lights and occluders in antumbra's terms.
+    pub described: Described,
+    pub(crate) primitives: Vec<Primitive>,
+    pub(crate) camera: Camera,
+    background: Vec3,
+    ambient: Vec3,
+    near: f64,
+    bounds: Vec<Plane>,
+}
+
+impl Setting {
+    /// Prepares a scene at `time` for a picture of this shape.
+    ///
+    /// # Errors
+    /// [`HostError::Unsupported`] for lights and shapes that are not drawn.
+    pub fn new(scene: &Scene, time: f64, aspect: f64) -> Result<Self, HostError> {
+        let moment = scene.moment(time);
+        let described = describe(scene, &moment)?;
+        let near = near_distance(scene, &moment);
+        let y = (scene.camera.fov_y * 0.5).tan().recip();
+        // Infinite: whatever is far stays in, at full relative precision.
+        let projection = DMat4::from_cols(
+            DVec4::X * (y / aspect),
+            DVec4::Y * y,
+            DVec4::new(0.0, 0.0, -1.0, -1.0),
+            DVec4::Z * (-2.0 * near),
+        );
+        Ok(Self {
+            described,
+            camera: Camera { view: scene.camera.view(), projection },
+            background: scene.image.background.as_vec3(),
+            ambient: scene.ambient.as_vec3() * PI,
+            near,
+            bounds: bounds(&moment),
+            primitives: moment.primitives,
+        })
+    }
+}
+
+/// The sides of a box round everything; none where something is infinite.
+fn bounds(moment: &Moment) -> Vec<Plane> {
+    let boxes: Option<Vec<_>> = moment.primitives.iter().map(Primitive::bounds).collect();
+    let whole = boxes.into_iter().flatten().reduce(|(a, b), (c, d)| (a.min(c), b.max(d)));
+    let sides = |(low, high): (DVec3, DVec3)| {
+        let side = move |axis| [Plane::through(low, axis), Plane::through(high, -axis)];
+        [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(side)
+    };
+    whole.into_iter().flat_map(sides).collect()
+}
+
+/// Half the distance to the nearest thing, so that the depth buffer spends its digits well.
+fn near_distance(scene: &Scene, moment: &Moment) -> f64 {
+    let eye = scene.camera.eye;
+    let nearest = moment
+        .primitives
+        .iter()
+        .map(|p| match p.bounds() {
+            Some((low, high)) => eye.distance(eye.clamp(low, high)),
+            None => p.pose.direction(DVec3::Y).dot(eye - p.pose.translation).abs(),
+        })
+        .fold(f64::INFINITY, f64::min);
+    let sight = eye.distance(scene.camera.target);
+    (0.5 * nearest).clamp(1e-3 * sight, 0.5 * sight)
+}
+
+impl Stage {
+    /// Compiles the shaders of the host and of antumbra.
+    ///
+    /// # Errors
+    /// [`HostError::Driver`], [`HostError::Shadows`].
+    pub fn new(gl: &Arc<glow::Context>) -> Result<Self, HostError> {
+        let shadows = antumbra::Renderer::new(gl.clone())?;
+        let multisample_program =
+            if shadows.caps().max_samples > 1 { Some(Program::new(gl, true)?) } else { None };
+        // SAFETY: fresh objects in the current context; the buffer is as large as the block.
+        unsafe {
+            let lights = gl.create_buffer().map_err(HostError::Driver)?;
+            gl.bind_buffer(glow::UNIFORM_BUFFER, Some(lights));
+            let size = MAX_LIGHTS * size_of::<ShaderLight>();
+            gl.buffer_data_size(glow::UNIFORM_BUFFER, size as i32, glow::DYNAMIC_DRAW);
+            Ok(Self {
+                program: Program::new(gl, false)?,
+                multisample_program,
+                vertex_array: gl.create_vertex_array().map_err(HostError::Driver)?,
+                lights,
+                targets: None,
+                shadows,
+                gl: gl.clone(),
+            })
+        }
+    }
+
+    /// The shadow renderer.
+    pub fn shadows(&self) -> &antumbra::Renderer {
+        &self.shadows
+    }
+
+    /// Draws the scene without shadows into the stage's own targets.
+    ///
+    /// # Errors
+    /// [`HostError::BadRequest`] for sizes and sample counts the driver does not have.
+    pub fn draw(
+        &mut self,
+        setting: &Setting,
+        width: u32,
+        height: u32,
+        samples: u32,
+        format: ColorFormat,
+    ) -> Result<(), HostError> {
+        self.ensure_targets(width, height, samples, format)?;
+        let gl = &self.gl;
+        let Some(targets) = &self.targets else { return Ok(()) };
+        let program = match &self.multisample_program {
+            Some(program) if samples > 1 => program,
+            _ => &self.program,
+        };
+        let u = &program.uniforms;
+        let view = setting.camera.view;
+        let projection = setting.camera.projection;
+        let [px, py] = [projection.x_axis.x, projection.y_axis.y];
+        let window =
+            [2.0 / (f64::from(width) * px), 2.0 / (f64::from(height) * py), -1.0 / px, -1.0 / py].map(|x| x as f32);
+        // SAFETY: objects of this stage; every uniform and buffer has the size its shader declares.
+        unsafe {
+            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(targets.all));
+            gl.viewport(0, 0, width as i32, height as i32);
+            gl.disable(glow::BLEND);
+            gl.enable(glow::DEPTH_TEST);
+            gl.depth_mask(true);
+            gl.depth_func(glow::LESS);
+            gl.enable(glow::CULL_FACE);
+            gl.cull_face(glow::FRONT); // the far side of each box: seen from inside it too
+            gl.clear_buffer_f32_slice(glow::COLOR, 0, &setting.background.extend(1.0).to_array());
+            gl.clear_buffer_f32_slice(glow::COLOR, 1, &[0.0; 4]);
+            gl.clear_buffer_u32_slice(glow::COLOR, 2, &[0; 4]);
+            gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[1.0]);
+            gl.use_program(Some(program.raw));
+            gl.bind_vertex_array(Some(self.vertex_array));
+            gl.uniform_matrix_4_f32_slice(u.projection.as_ref(), false, &projection.as_mat4().to_cols_array());
+            gl.uniform_4_f32_slice(u.window.as_ref(), &window);
+            gl.uniform_2_f32(u.depth.as_ref(), 1.0, -setting.near as f32);
+            gl.bind_buffer_base(glow::UNIFORM_BUFFER, 0, Some(self.lights));
+            // More lights than a uniform block holds are added in further passes.
+            let lights = &setting.described.lights;
+            let passes = lights.len().div_ceil(MAX_LIGHTS).max(1);
+            for pass in 0..passes {
+                let some = &lights[(pass * MAX_LIGHTS).min(lights.len())..((pass + 1) * MAX_LIGHTS).min(lights.len())];
+                let data: Vec<ShaderLight> = some.iter().map(|light| ShaderLight::new(light, &view)).collect();
+                gl.bind_buffer(glow::UNIFORM_BUFFER, Some(self.lights));
+                gl.buffer_sub_data_u8_slice(glow::UNIFORM_BUFFER, 0, bytemuck::cast_slice(&data));
+                gl.uniform_1_i32(u.light_count.as_ref(), some.len() as i32);
+                let ambient = if pass == 0 { setting.ambient } else { Vec3::ZERO };
+                gl.uniform_3_f32_slice(u.ambient.as_ref(), &ambient.to_array());
+                if pass == 1 {
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(targets.all));
+                    gl.draw_buffers(&[glow::COLOR_ATTACHMENT0]);
+                    gl.enable(glow::BLEND);
+                    gl.blend_func(glow::ONE, glow::ONE);
+                    gl.depth_func(glow::EQUAL);
+                }
+                for (i, primitive) in setting.primitives.iter().enumerate() {
+                    self.draw_primitive(program, primitive, i as u32 + 1, &view);
+                }
+            }
+            if passes > 1 {
+                gl.draw_buffers(&[glow::COLOR_ATTACHMENT0, glow::COLOR_ATTACHMENT1, glow::COLOR_ATTACHMENT2]);
+                gl.disable(glow::BLEND);
+            }
+            gl.disable(glow::CULL_FACE);
+            gl.disable(glow::DEPTH_TEST);
+        }
+        Ok(())
+    }
+
+    /// # Safety
+    /// `program` is in use.
+    unsafe fn draw_primitive(&self, program: &Program, primitive: &Primitive, id: u32, view: &DMat4) {
+        let Some(cast) = Cast::new(&primitive.shape) else { return };
+        let gl = &self.gl;
+        let u = &program.uniforms;
+        let pose = DMat4::from_rotation_translation(primitive.pose.rotation, primitive.pose.translation);
+        let to_view = *view * pose;
+        let eye = to_view.inverse().transform_point3(DVec3::ZERO).as_vec3();
+        let from_view = Mat3::from_mat4(to_view.as_mat4()).transpose();
+        let albedo = primitive.color.as_vec3() / PI;
+        let id = if primitive.receives_shadow { id } else { id | NO_SHADOW };
+        // SAFETY: the caller's.
+        unsafe {
+            gl.uniform_matrix_4_f32_slice(u.to_view.as_ref(), false, &to_view.as_mat4().to_cols_array());
+            gl.uniform_matrix_3_f32_slice(u.from_view.as_ref(), false, &from_view.to_cols_array());
+            gl.uniform_3_f32_slice(u.eye.as_ref(), &eye.to_array());
+            gl.uniform_3_f32_slice(u.center.as_ref(), &cast.center.to_array());
+            gl.uniform_3_f32_slice(u.half_size.as_ref(), &cast.half_size.to_array());
+            gl.uniform_1_i32(u.shape.as_ref(), cast.shape);
+            gl.uniform_4_f32_slice(u.size.as_ref(), &cast.size.to_array());
+            gl.uniform_3_f32_slice(u.triangle.as_ref(), bytemuck::cast_slice(&cast.triangle));
+            gl.uniform_3_f32_slice(u.albedo.as_ref(), &albedo.to_array());
+            gl.uniform_1_u32(u.id.as_ref(), id);
+            gl.draw_arrays(glow::TRIANGLES, 0, 36);
+        }
+    }
+
+    /// The frame that antumbra shadows: what [`Self::draw`] has drawn last.
+    pub(crate) fn frame<'a>(&self, setting: &'a Setting) -> Option<Frame<'a>> {
+        let targets = self.targets.as_ref()?;
+        let (width, height, samples, _) = targets.key;
+        Some(Frame {
+            camera: setting.camera,
+            viewport: [0, 0, width, height],
+            surface: Surface {
+                depth: targets.depth,
+                samples,
+                depth_format: DepthFormat::default(),
+                normals: Some(Normals { texture: targets.normals, space: NormalSpace::View, biased: false }),
+                ids: Some(targets.ids),
+            },
+            lights: &setting.described.lights,
+            occluders: &setting.described.occluders,
+            bounds: &setting.bounds,
+            ambient: setting.ambient,
+        })
+    }
+
+    /// Adds shadows to what [`Self::draw`] has drawn.
+    ///
+    /// # Errors
+    /// [`HostError::Shadows`].
+    pub fn add_shadows(&mut self, setting: &Setting) -> Result<(), HostError> {
+        let (Some(frame), Some(targets)) = (self.frame(setting), &self.targets) else { return Ok(()) };
+        // SAFETY: a framebuffer of this stage with the colour alone.
+        unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(targets.color_only)) };
+        self.shadows.overlay(&frame, antumbra::Encoding::Linear)?;
+        Ok(())
+    }
+
+    fn ensure_targets(&mut self, width: u32, height: u32, samples: u32, format: ColorFormat) -> Result<(), HostError> {
+        let caps = self.shadows.caps();
+        if width == 0 || height == 0 || width.max(height) > caps.max_texture_size {
+            return Err(HostError::BadRequest(format!(
+                "{width}x{height} pixels; this driver draws 1 to {0} a side",
+                caps.max_texture_size
+            )));
+        }
+        if samples == 0 || samples > caps.max_samples {
+            return Err(HostError::BadRequest(format!(
+                "{samples} samples a pixel; this driver has 1 to {}",
+                caps.max_samples
+            )));
+        }
+        let key = (width as i32, height as i32, samples, format);
+        if self.targets.as_ref().is_none_or(|targets| targets.key != key) {
+            if let Some(old) = self.targets.take() {
+                // SAFETY: nothing else refers to them.
+                unsafe { old.delete(&self.gl) };
+            }
+            self.targets = Some(Targets::new(&self.gl, key.0, key.1, samples, format)?);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        // SAFETY: the stage's own objects.
+        unsafe {
+            if let Some(targets) = self.targets.take() {
+                targets.delete(&self.gl);
+            }
+            self.gl.delete_vertex_array(self.vertex_array);
+            self.gl.delete_buffer(self.lights);
+            self.gl.delete_program(self.program.raw);
+            if let Some(program) = &self.multisample_program {
+                self.gl.delete_program(program.raw);
+            }
+        }
+    }
+}
+
+/// A shape in the shader's numbers.
+struct Cast {
+    shape: i32,
+    size: Vec4,
+    triangle: [Vec3; 3],
+    center: Vec3,
+    half_size: Vec3,
+}
+
+impl Cast {
+    /// `None` for shapes this host does not draw.
+    fn new(shape: &Shape) -> Option<Self> {
+        let cast = |shape, size: Vec4, half_size: Vec3| Self {
+            shape,
+            size,
+            triangle: [Vec3::ZERO; 3],
+            center: Vec3::ZERO,
+            half_size,
+        };
+        // Boxes of flat shapes are a little thick, so that their far side exists.
+        Some(match *shape {
+            Shape::Plane => cast(0, Vec4::ZERO, Vec3::ZERO),
+            Shape::Rectangle { width, depth } => {
+                let half = Vec3::new(width as f32, 0.0, depth as f32) * 0.5;
+                cast(1, half.xz().extend(0.0).extend(0.0), half + half.max_element() * 1e-2)
+            }
+            Shape::Disc { radius } => {
+                let r = radius as f32;
+                cast(2, Vec4::splat(r), Vec3::new(r, r * 1e-2, r) * 1.01)
+            }
+            Shape::Triangle { vertices } => {
+                let triangle = vertices.map(|v| v.as_vec3());
+                let low = triangle.into_iter().reduce(Vec3::min)?;
+                let high = triangle.into_iter().reduce(Vec3::max)?;
+                let half_size = (high - low) * 0.5;
+                let half_size = half_size + half_size.max_element() * 1e-2;
+                Self { triangle, center: (low + high) * 0.5, ..cast(3, Vec4::ZERO, half_size) }
+            }
+            Shape::Sphere { radius } => cast(4, Vec4::splat(radius as f32), Vec3::splat(radius as f32 * 1.01)),
+            Shape::Cone { radius, height } => {
+                let (r, h) = (radius as f32, height as f32);
+                cast(5, Vec4::new(r, h, 0.0, 0.0), Vec3::new(r, h * 0.5, r) * 1.01)
+            }
+            _ => return None,
+        })
+    }
+}
+
+

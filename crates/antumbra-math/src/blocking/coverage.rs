@@ -1,0 +1,72 @@
+//! Antialiasing without derivatives of neighbours: how much of a pixel lies on one side of an edge.
+
+use crate::real::{Real, Vector};
+
+/// A pixel's patch of a receiver: the point seen through the pixel's centre, and how it moves on
+/// the receiver's tangent plane from one pixel to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint<V: Vector> {
+    /// The point seen through the centre.
+    pub point: V,
+    /// Its change for one pixel to the right.
+    pub dx: V,
+    /// Its change for one pixel up.
+    pub dy: V,
+}
+
+impl<V: Vector> Footprint<V> {
+    /// A pixel without extent: every coverage is 0 or 1.
+    pub fn point(point: V) -> Self {
+        let zero = V::new(V::Real::ZERO, V::Real::ZERO, V::Real::ZERO);
+        Self { point, dx: zero, dy: zero }
+    }
+}
+
+/// The footprint of a pixel on the plane through `point` with unit normal `normal`, in view space
+/// (the eye at the origin, looking along -Z). `pixel` is the size of a pixel at distance one,
+/// 2/(width P₀₀) and 2/(height P₁₁), or in metres for an orthographic projection.
+///
+/// A surface seen edge-on has no finite footprint: its slope is limited to 1000.
+pub fn screen_footprint<V: Vector>(
+    point: V,
+    normal: V,
+    pixel: (V::Real, V::Real),
+    perspective: bool,
+) -> Footprint<V> {
+    let (zero, one) = (V::Real::ZERO, V::Real::ONE);
+    let forward = V::new(zero, zero, -one);
+    let (sight, distance) = if perspective { (point, point.dot(forward)) } else { (forward, one) };
+    let limit = sight.length() * V::Real::from_f64(1e-3);
+    let facing = sight.dot(normal);
+    let facing = if facing < zero { facing.min(-limit) } else { facing.max(limit) };
+    let on_plane = |step: V| step - sight * (normal.dot(step) / facing);
+    Footprint {
+        point,
+        dx: on_plane(V::new(distance * pixel.0, zero, zero)),
+        dy: on_plane(V::new(zero, distance * pixel.1, zero)),
+    }
+}
+
+/// The area of the unit pixel in which `value + slope_x·u + slope_y·v > 0`, u and v in
+/// [-1/2, 1/2]: exact for a straight edge. Without slope it is 1 for positive values and else 0.
+pub fn half_plane_coverage<R: Real>(value: R, slope_x: R, slope_y: R) -> R {
+    let (sx, sy) = (slope_x.abs(), slope_y.abs());
+    let (major, minor) = (sx.max(sy), sx.min(sy));
+    let reach = (major + minor) * R::HALF;
+    let distance = value.abs();
+    // The smaller of the two parts: nothing, a triangle cut off a corner, or a trapezium.
+    let small = if distance >= reach {
+        R::ZERO
+    } else if distance >= (major - minor) * R::HALF {
+        let rest = reach - distance;
+        rest * rest / ((R::ONE + R::ONE) * major * minor)
+    } else {
+        R::HALF - distance / major
+    };
+    if value > R::ZERO { R::ONE - small } else { small }
+}
+
+/// Coverage of the edge where `value` is zero, given the gradient of `value` in space.
+pub(super) fn edge_coverage<V: Vector>(value: V::Real, gradient: V, footprint: &Footprint<V>) -> V::Real {
+    half_plane_coverage(value, gradient.dot(footprint.dx), gradient.dot(footprint.dy))
+}

@@ -1,0 +1,84 @@
+//! A flat convex polygon between a point and a light: half-spaces.
+
+use super::Footprint;
+use super::coverage::edge_coverage;
+use crate::Plane;
+use crate::real::{Real, Vector};
+use glam::{DVec3, DVec4};
+
+/// A convex polygon and the light it blocks: the points behind the polygon's own plane and on
+/// the inner side of the planes through the light and each edge. Every plane is (unit normal n,
+/// offset d) with n·p + d > 0 inside; unused edges are (0, 1), inside everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PolygonBlocker<V: Vector> {
+    /// The polygon's plane; inside is the side away from the light.
+    pub base: (V, V::Real),
+    /// The planes of light and edge.
+    pub edges: [(V, V::Real); 4],
+}
+
+const ANYWHERE: (DVec3, f64) = (DVec3::ZERO, 1.0);
+
+impl PolygonBlocker<DVec3> {
+    /// Blocks the light from every point: what a light inside a solid does to the rest.
+    pub const EVERYTHING: Self = Self { base: ANYWHERE, edges: [ANYWHERE; 4] };
+
+    /// A planar convex polygon of three or four corners, in order. `None` when it has no area or
+    /// the light lies in its plane.
+    pub fn new(corners: &[DVec3], light: DVec4) -> Option<Self> {
+        let &[a, b, c, ..] = corners else { return None };
+        let size = (b - a).length().max((c - a).length());
+        let normal = (b - a).cross(c - a);
+        // No area beyond what rounding makes.
+        if !(normal.length() > size * size * 1e-14) {
+            return None;
+        }
+        let plane = Plane::through(a, normal.normalize());
+        let base = Self::half_space(&plane, light)?.base;
+        // Light above the plane with the corners counter-clockwise seen from it: edges × light is inward.
+        let turn = if base.0.dot(plane.normal) < 0.0 { 1.0 } else { -1.0 };
+        let mut edges = [ANYWHERE; 4];
+        for (i, edge) in edges.iter_mut().enumerate().take(corners.len()) {
+            let (p, q) = (corners[i], corners[(i + 1) % corners.len()]);
+            let to_light = light.truncate() - p * light.w;
+            let n = (to_light.cross(q - p) * turn).try_normalize()?;
+            *edge = (n, -n.dot(p));
+        }
+        Some(Self { base, edges })
+    }
+
+    /// Everything on the far side of a plane. `None` when the light lies in it.
+    pub fn half_space(plane: &Plane, light: DVec4) -> Option<Self> {
+        let height = plane.normal.dot(light.truncate()) - plane.offset * light.w;
+        let scale = light.truncate().length() + plane.offset.abs() * light.w;
+        // A light whose height is rounding error is in the plane.
+        if !(height.abs() > scale * 1e-14) {
+            return None;
+        }
+        let s = -height.signum();
+        Some(Self { base: (plane.normal * s, -plane.offset * s), edges: [ANYWHERE; 4] })
+    }
+
+    pub(super) fn to_f32(self) -> PolygonBlocker<glam::Vec3> {
+        let plane = |(n, d): (DVec3, f64)| (n.as_vec3(), d as f32);
+        PolygonBlocker { base: plane(self.base), edges: self.edges.map(plane) }
+    }
+}
+
+impl<V: Vector> PolygonBlocker<V> {
+    /// The base and the edges.
+    pub fn planes(&self) -> [(V, V::Real); 5] {
+        let [a, b, c, d] = self.edges;
+        [self.base, a, b, c, d]
+    }
+}
+
+/// How much of the pixel a polygon takes from the light: the least of its half-planes' coverages,
+/// which is exact where at most one edge crosses the pixel.
+pub fn polygon_coverage<V: Vector>(b: &PolygonBlocker<V>, footprint: &Footprint<V>) -> V::Real {
+    let mut coverage = V::Real::ONE;
+    for (normal, offset) in b.planes() {
+        coverage = coverage.min(edge_coverage(normal.dot(footprint.point) + offset, normal, footprint));
+    }
+    coverage
+}
