@@ -42,9 +42,8 @@ impl Caps {
         let at_least = |major, minor| (version.major, version.minor) >= (major, minor);
         let tier = match (version.is_embedded, at_least(3, 3)) {
             (true, _) if at_least(3, 0) => {
-                let float = at_least(3, 2)
-                    || has("GL_EXT_color_buffer_float")
-                    || has("EXT_color_buffer_float");
+                let float =
+                    at_least(3, 2) || has("GL_EXT_color_buffer_float") || has("EXT_color_buffer_float");
                 if float { Tier::Es3Float } else { Tier::Es3 }
             }
             (false, true) if at_least(4, 0) || has("GL_ARB_sample_shading") => Tier::Core33Samples,

@@ -17,7 +17,11 @@ pub(crate) unsafe fn refuse_feedback(
     if framebuffer.is_none() {
         return Ok(()); // the window's own buffers are no textures
     }
-    let read = [("depth", Some(surface.depth)), ("normals", surface.normals.map(|n| n.texture)), ("ids", surface.ids)];
+    let read = [
+        ("depth", Some(surface.depth)),
+        ("normals", surface.normals.map(|n| n.texture)),
+        ("ids", surface.ids),
+    ];
     let colors = (0..caps.draw_buffers).map(|i| glow::COLOR_ATTACHMENT0 + i);
     for attachment in colors.chain([glow::DEPTH_ATTACHMENT, glow::STENCIL_ATTACHMENT]) {
         // SAFETY: the caller's; the attachment points exist, and a name is only asked for where

@@ -52,7 +52,8 @@ impl ShaderLight {
         let distance = square.sqrt();
         let direction = to_light / distance;
         let cosine = normal.dot(direction).max(0.0);
-        let angular = ((-direction).dot(self.cone.truncate()) * self.cone.w + self.attenuation.w).clamp(0.0, 1.0);
+        let angular =
+            ((-direction).dot(self.cone.truncate()) * self.cone.w + self.attenuation.w).clamp(0.0, 1.0);
         let falloff = if self.place.w > 0.5 {
             1.0 / (self.attenuation.x + self.attenuation.y * distance + self.attenuation.z * square)
         } else {

@@ -4,8 +4,8 @@ use crate::frame::{Light, Occluder};
 use crate::proxy::ProxyBuilder;
 use crate::shader::ProgramId;
 use crate::view::View;
-use antumbra_math::{Plane, Shape};
 use antumbra_math::blocking::{Blocker, Blockers};
+use antumbra_math::{Plane, Shape};
 use glam::{DVec3, Vec4};
 
 /// Lights in one batch: two RGBA targets, a channel a light.
@@ -68,7 +68,8 @@ impl PairBuilder {
             // Nothing is seen behind an opaque plane that the host draws.
             if let (Shape::Plane(plane), true) = (shape, o.id != 0) {
                 let eye_side = plane.height(DVec3::ZERO).signum();
-                self.bounds_vs.push(Plane { normal: plane.normal * eye_side, offset: plane.offset * eye_side });
+                self.bounds_vs
+                    .push(Plane { normal: plane.normal * eye_side, offset: plane.offset * eye_side });
             }
         }
     }

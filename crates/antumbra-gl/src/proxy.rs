@@ -192,7 +192,11 @@ fn convex_hull(points: &mut [DVec2], hull: &mut Vec<DVec2>) {
             }
             hull.push(p);
         };
-        if upper { points.iter().rev().for_each(|&p| add(p)) } else { points.iter().for_each(|&p| add(p)) }
+        if upper {
+            points.iter().rev().for_each(|&p| add(p))
+        } else {
+            points.iter().for_each(|&p| add(p))
+        }
         hull.pop(); // the next chain starts with it
     }
     if hull.is_empty() && !points.is_empty() {

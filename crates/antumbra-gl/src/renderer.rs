@@ -239,7 +239,12 @@ impl Renderer {
     ///
     /// # Safety
     /// A [`StateGuard`] is alive, [`Self::prepare`] was called, the surface's textures exist.
-    unsafe fn draw_visibility(&mut self, lights: &[Light], view: &View, surface: &Surface) -> Result<(), Error> {
+    unsafe fn draw_visibility(
+        &mut self,
+        lights: &[Light],
+        view: &View,
+        surface: &Surface,
+    ) -> Result<(), Error> {
         let gl = &self.gl;
         self.pairs.pack(lights, view);
         let upload = &mut self.uploads[self.next_upload];
@@ -328,7 +333,11 @@ impl Renderer {
                 gl.uniform_4_f32_slice(u.lights.as_ref(), bytemuck::cast_slice(data));
                 gl.uniform_1_i32(u.light_count.as_ref(), lights.len() as i32);
             }
-            let others = if own_target.is_none() { OtherBuffers::leave_alone(gl, self.caps, framebuffer) } else { None };
+            let others = if own_target.is_none() {
+                OtherBuffers::leave_alone(gl, self.caps, framebuffer)
+            } else {
+                None
+            };
             gl.draw_arrays(glow::TRIANGLES, 0, 3);
             if let Some(others) = others {
                 others.restore(gl);
@@ -367,7 +376,13 @@ unsafe fn bind_texture(gl: &glow::Context, unit: u32, samples: u32, texture: glo
 ///
 /// # Safety
 /// A [`StateGuard`] is alive, `program` is in use, the surface's textures exist.
-unsafe fn set_surface(gl: &glow::Context, program: &Program, view: &View, surface: &Surface, offset: [i32; 2]) {
+unsafe fn set_surface(
+    gl: &glow::Context,
+    program: &Program,
+    view: &View,
+    surface: &Surface,
+    offset: [i32; 2],
+) {
     let u = &program.uniforms;
     let [x, y, width, height] = view.viewport;
     // SAFETY: the caller's.

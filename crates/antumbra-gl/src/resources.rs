@@ -61,7 +61,13 @@ impl Target {
                 texture_storage(gl, internal, width, height);
             }
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(framebuffer));
-            gl.framebuffer_texture_2d(glow::DRAW_FRAMEBUFFER, glow::COLOR_ATTACHMENT0, kind, Some(texture), 0);
+            gl.framebuffer_texture_2d(
+                glow::DRAW_FRAMEBUFFER,
+                glow::COLOR_ATTACHMENT0,
+                kind,
+                Some(texture),
+                0,
+            );
             let target = Self { texture, framebuffer, width, height, samples };
             if gl.check_framebuffer_status(glow::DRAW_FRAMEBUFFER) != glow::FRAMEBUFFER_COMPLETE {
                 target.delete(gl);

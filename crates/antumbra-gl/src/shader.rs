@@ -46,8 +46,16 @@ macro_rules! blocker_program {
     };
 }
 
-const fn screen_program(name: &'static str, defines: &'static str, parts: &'static [&'static str]) -> ProgramSource {
-    ProgramSource { name, vertex: Stage { defines: "", parts: &[SCREEN] }, fragment: Stage { defines, parts } }
+const fn screen_program(
+    name: &'static str,
+    defines: &'static str,
+    parts: &'static [&'static str],
+) -> ProgramSource {
+    ProgramSource {
+        name,
+        vertex: Stage { defines: "", parts: &[SCREEN] },
+        fragment: Stage { defines, parts },
+    }
 }
 
 /// What the host's surface is made of. Every program exists for each variant: choosing in the
@@ -160,9 +168,26 @@ macro_rules! uniforms {
 }
 
 uniforms!(
-    depth, normals, ids, unproject, pixel_step, background_depth, surface_offset, surface_last, normal_to_view,
-    normal_decode, blockers, visibility_0, visibility_1, visibility_offset, ambient, gamma, lights,
-    light_count, all, taken,
+    depth,
+    normals,
+    ids,
+    unproject,
+    pixel_step,
+    background_depth,
+    surface_offset,
+    surface_last,
+    normal_to_view,
+    normal_decode,
+    blockers,
+    visibility_0,
+    visibility_1,
+    visibility_offset,
+    ambient,
+    gamma,
+    lights,
+    light_count,
+    all,
+    taken,
 );
 
 impl Program {
@@ -181,7 +206,11 @@ impl Program {
 }
 
 /// Compiles and links a vertex and a fragment shader, leaving no object behind on failure.
-pub(crate) fn link(gl: &glow::Context, name: &'static str, sources: &[String; 2]) -> Result<glow::Program, Error> {
+pub(crate) fn link(
+    gl: &glow::Context,
+    name: &'static str,
+    sources: &[String; 2],
+) -> Result<glow::Program, Error> {
     let refused = |what: &str| Error::Resource { what: format!("a {what} for {name}") };
     // SAFETY: objects are made, used and deleted in this context; every one is valid when used.
     unsafe {

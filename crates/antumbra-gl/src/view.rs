@@ -34,9 +34,7 @@ impl View {
             return Err(Error::BadFrame("the camera's matrices are not finite"));
         }
         let rotation = DMat3::from_mat4(view);
-        if !(rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-4)
-            || view.row(3) != DVec4::W
-        {
+        if !(rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-4) || view.row(3) != DVec4::W {
             return Err(Error::BadFrame("the view matrix is more than a rotation and a translation"));
         }
         let determinant = projection.determinant();
@@ -46,7 +44,9 @@ impl View {
         let [x, y, width, height] = frame.viewport;
         let limit = caps.max_texture_size as i32;
         if width <= 0 || height <= 0 || width > limit || height > limit || x < 0 || y < 0 {
-            return Err(Error::BadFrame("the viewport is empty, negative or larger than the driver's textures"));
+            return Err(Error::BadFrame(
+                "the viewport is empty, negative or larger than the driver's textures",
+            ));
         }
         let surface = &frame.surface;
         if surface.samples == 0 {

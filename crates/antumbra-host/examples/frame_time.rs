@@ -18,7 +18,8 @@ const ROUNDS: usize = 60;
 const WARM_UP: usize = 5;
 
 fn scene(lights: usize, spheres: usize) -> String {
-    let mut text = String::from("ambient = [0.1, 0.1, 0.1]\n[camera]\neye = [0, 6, 10]\ntarget = [0, 0.5, 0]\n");
+    let mut text =
+        String::from("ambient = [0.1, 0.1, 0.1]\n[camera]\neye = [0, 6, 10]\ntarget = [0, 0.5, 0]\n");
     let circle = |i: usize, n: usize| (i as f64 / n as f64 * std::f64::consts::TAU).sin_cos();
     for i in 0..lights {
         let (sin, cos) = circle(i, lights);
@@ -77,7 +78,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (plain, shadowed) = (median(&mut plain), median(&mut shadowed));
     println!("{}, {lights} lights, {spheres} spheres, {size}x{size}", context.info().renderer);
     println!("{:?}", stage.shadows().stats());
-    println!("plain {plain:.2} ms, with shadows {shadowed:.2} ms (medians of {ROUNDS}, wall time between glFinish)");
+    println!(
+        "plain {plain:.2} ms, with shadows {shadowed:.2} ms (medians of {ROUNDS}, wall time between glFinish)"
+    );
     println!("ratio {:.2}", shadowed / plain);
     Ok(())
 }

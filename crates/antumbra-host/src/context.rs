@@ -6,7 +6,7 @@ use glutin::api::egl::device::Device;
 use glutin::api::egl::display::Display;
 use glutin::config::{ConfigSurfaceTypes, ConfigTemplateBuilder};
 use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, PossiblyCurrentContext, Version};
-use glutin::display::{GlDisplay};
+use glutin::display::GlDisplay;
 use std::sync::Arc;
 
 /// The kind of context.
@@ -48,8 +48,9 @@ impl HeadlessContext {
     /// # Errors
     /// [`HostError::NoOpenGl`] says what each device answered.
     pub fn new(api: Api) -> Result<Self, HostError> {
-        let devices = Device::query_devices()
-            .map_err(|e| HostError::NoOpenGl(format!("no EGL devices ({e}); install libegl1 and libgl1-mesa-dri")))?;
+        let devices = Device::query_devices().map_err(|e| {
+            HostError::NoOpenGl(format!("no EGL devices ({e}); install libegl1 and libgl1-mesa-dri"))
+        })?;
         let mut answers = Vec::new();
         for device in devices {
             match Self::on_device(&device, api) {
@@ -81,8 +82,7 @@ impl HeadlessContext {
         // SAFETY: no native display handle is passed; the config comes from the same display.
         unsafe {
             let display = Display::with_device(device, None)?;
-            let no_config =
-                || glutin::error::Error::from(glutin::error::ErrorKind::BadConfig);
+            let no_config = || glutin::error::Error::from(glutin::error::ErrorKind::BadConfig);
             let config = display.find_configs(template)?.next().ok_or_else(no_config)?;
             let context = display.create_context(&config, &attributes)?.make_current_surfaceless()?;
             let gl = glow::Context::from_loader_function_cstr(|name| display.get_proc_address(name));
@@ -112,8 +112,7 @@ impl ContextInfo {
         unsafe {
             let text = |name| gl.get_parameter_string(name);
             let renderer = text(glow::RENDERER);
-            let software =
-                ["llvmpipe", "softpipe", "SwiftShader"].iter().any(|name| renderer.contains(name));
+            let software = ["llvmpipe", "softpipe", "SwiftShader"].iter().any(|name| renderer.contains(name));
             Self {
                 vendor: text(glow::VENDOR),
                 version: text(glow::VERSION),

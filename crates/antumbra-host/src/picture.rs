@@ -1,9 +1,10 @@
 //! Pictures and visibilities read back from the stage.
 
+use crate::HostError;
 use crate::stage::{Setting, Stage};
 use crate::targets::ColorFormat;
-use crate::HostError;
 use antumbra::glam::{DVec3, Vec3};
+use antumbra::math::Light as Place;
 use antumbra::math::blocking::half_plane_coverage;
 use antumbra::{BATCH_LIGHTS, ShaderLight};
 use antumbra_scene::Scene;
@@ -74,7 +75,18 @@ impl Stage {
                 Some((_, resolved)) => {
                     gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(targets.color_only));
                     gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(resolved));
-                    gl.blit_framebuffer(0, 0, width, height, 0, 0, width, height, glow::COLOR_BUFFER_BIT, glow::NEAREST);
+                    gl.blit_framebuffer(
+                        0,
+                        0,
+                        width,
+                        height,
+                        0,
+                        0,
+                        width,
+                        height,
+                        glow::COLOR_BUFFER_BIT,
+                        glow::NEAREST,
+                    );
                     resolved
                 }
             };
@@ -87,7 +99,10 @@ impl Stage {
 
     /// The visibilities of all lights, 8 at a time.
     fn read_visibility(&mut self, setting: &Setting) -> Result<Vec<Vec<f32>>, HostError> {
+        // Visibility says whether the way to the light is free, also outside a spot's cone.
+        let lights: Vec<_> = setting.described.lights.iter().map(everywhere).collect();
         let Some(frame) = self.frame(setting) else { return Ok(Vec::new()) };
+        let frame = antumbra::Frame { lights: &lights, ..frame };
         let gl = self.gl.clone();
         let surface = self.read_surface(setting)?;
         let [_, _, width, height] = frame.viewport;
@@ -157,8 +172,22 @@ impl Stage {
             })
             .collect();
         let normals = normals.iter().map(|n| Vec3::new(n[0], n[1], n[2])).collect();
-        Ok(SurfaceCopy { width: width as usize, positions, normals, ids: ids.iter().map(|id| id[0]).collect() })
+        Ok(SurfaceCopy {
+            width: width as usize,
+            positions,
+            normals,
+            ids: ids.iter().map(|id| id[0]).collect(),
+        })
     }
+}
+
+/// A light in the same place that shines everywhere.
+fn everywhere(light: &antumbra::Light) -> antumbra::Light {
+    let place = match light.place {
+        Place::Spot { position, .. } => Place::Point { position },
+        place => place,
+    };
+    antumbra::Light { place, intensity: Vec3::ONE, ..*light }
 }
 
 /// The stage's surface on the CPU, rows from bottom to top, view space.
@@ -205,7 +234,13 @@ impl SurfaceCopy {
 
 /// # Safety
 /// A framebuffer of this size that can be read in this format is bound; `T` is one pixel of it.
-unsafe fn read<T: bytemuck::Pod>(gl: &glow::Context, width: i32, height: i32, layout: u32, kind: u32) -> Vec<T> {
+unsafe fn read<T: bytemuck::Pod>(
+    gl: &glow::Context,
+    width: i32,
+    height: i32,
+    layout: u32,
+    kind: u32,
+) -> Vec<T> {
     let mut pixels = vec![T::zeroed(); width as usize * height as usize];
     let bytes = PixelPackData::Slice(Some(bytemuck::cast_slice_mut(&mut pixels)));
     // SAFETY: the caller's.

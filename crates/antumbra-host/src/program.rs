@@ -33,7 +33,20 @@ macro_rules! uniforms {
 }
 
 uniforms!(
-    projection, to_view, center, half_size, eye, from_view, window, depth, shape, size, triangle, albedo, ambient, id,
+    projection,
+    to_view,
+    center,
+    half_size,
+    eye,
+    from_view,
+    window,
+    depth,
+    shape,
+    size,
+    triangle,
+    albedo,
+    ambient,
+    id,
     light_count,
 );
 

@@ -1,9 +1,9 @@
 //! Draws a scene without shadows.
 
+use crate::HostError;
+use crate::describe::{Described, describe};
 use crate::program::{MAX_LIGHTS, Program};
 use crate::targets::{ColorFormat, Targets};
-use crate::describe::{Described, describe};
-use crate::HostError;
 use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3, Vec3Swizzles, Vec4};
 use antumbra::math::Plane;
 use antumbra::{Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface};
@@ -145,8 +145,8 @@ impl Stage {
         let view = setting.camera.view;
         let projection = setting.camera.projection;
         let [px, py] = [projection.x_axis.x, projection.y_axis.y];
-        let window =
-            [2.0 / (f64::from(width) * px), 2.0 / (f64::from(height) * py), -1.0 / px, -1.0 / py].map(|x| x as f32);
+        let window = [2.0 / (f64::from(width) * px), 2.0 / (f64::from(height) * py), -1.0 / px, -1.0 / py]
+            .map(|x| x as f32);
         // SAFETY: objects of this stage; every uniform and buffer has the size its shader declares.
         unsafe {
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(targets.all));
@@ -163,7 +163,11 @@ impl Stage {
             gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[1.0]);
             gl.use_program(Some(program.raw));
             gl.bind_vertex_array(Some(self.vertex_array));
-            gl.uniform_matrix_4_f32_slice(u.projection.as_ref(), false, &projection.as_mat4().to_cols_array());
+            gl.uniform_matrix_4_f32_slice(
+                u.projection.as_ref(),
+                false,
+                &projection.as_mat4().to_cols_array(),
+            );
             gl.uniform_4_f32_slice(u.window.as_ref(), &window);
             gl.uniform_2_f32(u.depth.as_ref(), 1.0, -setting.near as f32);
             gl.bind_buffer_base(glow::UNIFORM_BUFFER, 0, Some(self.lights));
@@ -171,8 +175,10 @@ impl Stage {
             let lights = &setting.described.lights;
             let passes = lights.len().div_ceil(MAX_LIGHTS).max(1);
             for pass in 0..passes {
-                let some = &lights[(pass * MAX_LIGHTS).min(lights.len())..((pass + 1) * MAX_LIGHTS).min(lights.len())];
-                let data: Vec<ShaderLight> = some.iter().map(|light| ShaderLight::new(light, &view)).collect();
+                let some = &lights
+                    [(pass * MAX_LIGHTS).min(lights.len())..((pass + 1) * MAX_LIGHTS).min(lights.len())];
+                let data: Vec<ShaderLight> =
+                    some.iter().map(|light| ShaderLight::new(light, &view)).collect();
                 gl.bind_buffer(glow::UNIFORM_BUFFER, Some(self.lights));
                 gl.buffer_sub_data_u8_slice(glow::UNIFORM_BUFFER, 0, bytemuck::cast_slice(&data));
                 gl.uniform_1_i32(u.light_count.as_ref(), some.len() as i32);
@@ -260,7 +266,13 @@ impl Stage {
         Ok(())
     }
 
-    fn ensure_targets(&mut self, width: u32, height: u32, samples: u32, format: ColorFormat) -> Result<(), HostError> {
+    fn ensure_targets(
+        &mut self,
+        width: u32,
+        height: u32,
+        samples: u32,
+        format: ColorFormat,
+    ) -> Result<(), HostError> {
         let caps = self.shadows.caps();
         if width == 0 || height == 0 || width.max(height) > caps.max_texture_size {
             return Err(HostError::BadRequest(format!(
@@ -341,7 +353,9 @@ impl Cast {
                 let half_size = half_size + half_size.max_element() * 1e-2;
                 Self { triangle, center: (low + high) * 0.5, ..cast(3, Vec4::ZERO, half_size) }
             }
-            Shape::Sphere { radius } => cast(4, Vec4::splat(radius as f32), Vec3::splat(radius as f32 * 1.01)),
+            Shape::Sphere { radius } => {
+                cast(4, Vec4::splat(radius as f32), Vec3::splat(radius as f32 * 1.01))
+            }
             Shape::Cone { radius, height } => {
                 let (r, h) = (radius as f32, height as f32);
                 cast(5, Vec4::new(r, h, 0.0, 0.0), Vec3::new(r, h * 0.5, r) * 1.01)
@@ -350,5 +364,3 @@ impl Cast {
         })
     }
 }
-
-

@@ -52,7 +52,17 @@ impl Targets {
                 } else {
                     gl.bind_texture(glow::TEXTURE_2D, Some(texture));
                     let none = glow::PixelUnpackData::Slice(None);
-                    gl.tex_image_2d(glow::TEXTURE_2D, 0, internal as i32, width, height, 0, layout, kind, none);
+                    gl.tex_image_2d(
+                        glow::TEXTURE_2D,
+                        0,
+                        internal as i32,
+                        width,
+                        height,
+                        0,
+                        layout,
+                        kind,
+                        none,
+                    );
                     for name in [glow::TEXTURE_MIN_FILTER, glow::TEXTURE_MAG_FILTER] {
                         gl.tex_parameter_i32(glow::TEXTURE_2D, name, glow::NEAREST as i32);
                     }

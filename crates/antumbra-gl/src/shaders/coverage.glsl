@@ -40,6 +40,18 @@ float half_plane_coverage(float value, float slope_x, float slope_y) {
     return value > 0.0 ? 1.0 - small : small;
 }
 
-float edge_coverage(float value, vec3 gradient, Footprint footprint) {
-    return half_plane_coverage(value, dot(gradient, footprint.dx), dot(gradient, footprint.dy));
+// An edge across a pixel: x the area on its inner side, yz the change of the distance inwards for
+// one pixel to the right and one up.
+vec3 pixel_edge(float value, vec3 gradient, Footprint footprint) {
+    vec2 slope = vec2(dot(gradient, footprint.dx), dot(gradient, footprint.dy));
+    return vec3(half_plane_coverage(value, slope.x, slope.y), slope);
+}
+
+// The area inside both of two edges: the smaller one if they face the same way, the sum less one
+// if they face each other, the product at right angles, and by the cosine between those.
+float corner_coverage(vec3 a, vec3 b) {
+    float lengths = dot(a.yz, a.yz) * dot(b.yz, b.yz);
+    float cosine = dot(a.yz, b.yz) / sqrt(max(lengths, 1e-30));
+    float extreme = cosine > 0.0 ? min(a.x, b.x) : max(a.x + b.x - 1.0, 0.0);
+    return mix(a.x * b.x, extreme, min(abs(cosine), 1.0));
 }

@@ -6,13 +6,24 @@ struct PolygonBlocker {
     vec4 edges[4];
 };
 
+// The two edges that cut off most of the pixel; the others hardly touch it.
+void nearest_edges(inout vec3 first, inout vec3 second, vec3 edge) {
+    vec3 later = edge.x < first.x ? first : edge;
+    first = edge.x < first.x ? edge : first;
+    second = later.x < second.x ? later : second;
+}
+
 float polygon_coverage(PolygonBlocker b, Footprint footprint, float tolerance) {
-    float coverage = edge_coverage(dot(b.base.xyz, footprint.point) + b.base.w - tolerance, b.base.xyz, footprint);
+    vec3 first = vec3(1.0, 0.0, 0.0);
+    vec3 second = first;
+    nearest_edges(first, second,
+                  pixel_edge(dot(b.base.xyz, footprint.point) + b.base.w - tolerance, b.base.xyz, footprint));
     for (int i = 0; i < 4; i++) {
         vec4 plane = b.edges[i];
-        coverage = min(coverage, edge_coverage(dot(plane.xyz, footprint.point) + plane.w, plane.xyz, footprint));
+        nearest_edges(first, second,
+                      pixel_edge(dot(plane.xyz, footprint.point) + plane.w, plane.xyz, footprint));
     }
-    return coverage;
+    return corner_coverage(first, second);
 }
 
 float blocker_coverage(Footprint footprint, SurfacePoint surface) {

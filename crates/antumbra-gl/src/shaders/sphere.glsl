@@ -26,7 +26,7 @@ float sphere_coverage(SphereBlocker b, Footprint footprint, bool solid) {
     vec3 nearest = to_center - direction * along;
     float lever = 1.0 - b.light_w * along / distance;
     vec3 gradient = nearest * (lever / max(miss, 1e-30));
-    return edge_coverage(b.radius - miss, gradient, footprint);
+    return pixel_edge(b.radius - miss, gradient, footprint).x;
 }
 
 float blocker_coverage(Footprint footprint, SurfacePoint surface) {

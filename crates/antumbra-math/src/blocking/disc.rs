@@ -1,7 +1,7 @@
 //! A flat disc between a point and a light.
 
 use super::Footprint;
-use super::coverage::edge_coverage;
+use super::coverage::{Edge, corner_coverage};
 use crate::Disc;
 use crate::real::{Real, Vector};
 use glam::{DVec3, DVec4};
@@ -63,8 +63,8 @@ impl DiscBlocker<DVec3> {
 pub fn disc_coverage<V: Vector>(b: &DiscBlocker<V>, footprint: &Footprint<V>) -> V::Real {
     let from_center = footprint.point - b.center;
     let height = b.normal.dot(from_center);
-    let behind = edge_coverage(-height, -b.normal, footprint);
-    if !(behind > V::Real::ZERO) {
+    let behind = Edge::new(-height, -b.normal, footprint);
+    if !(behind.coverage > V::Real::ZERO) {
         return V::Real::ZERO;
     }
     // Where the footprint straddles the plane, the part behind it is what counts.
@@ -75,5 +75,5 @@ pub fn disc_coverage<V: Vector>(b: &DiscBlocker<V>, footprint: &Footprint<V>) ->
     let outward = hit * (V::Real::ONE / miss.max(V::Real::from_f64(1e-30)));
     let slant = outward.dot(b.toward - hit * b.nearness);
     let gradient = (b.normal * slant - outward) * scale;
-    behind.min(edge_coverage(b.radius - miss, gradient, footprint))
+    corner_coverage(&behind, &Edge::new(b.radius - miss, gradient, footprint))
 }

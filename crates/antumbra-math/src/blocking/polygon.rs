@@ -1,7 +1,7 @@
 //! A flat convex polygon between a point and a light: half-spaces.
 
 use super::Footprint;
-use super::coverage::edge_coverage;
+use super::coverage::{Edge, corner_coverage};
 use crate::Plane;
 use crate::real::{Real, Vector};
 use glam::{DVec3, DVec4};
@@ -73,12 +73,17 @@ impl<V: Vector> PolygonBlocker<V> {
     }
 }
 
-/// How much of the pixel a polygon takes from the light: the least of its half-planes' coverages,
-/// which is exact where at most one edge crosses the pixel.
+/// How much of the pixel a polygon takes from the light: what lies inside the two planes that cut
+/// off most of it. More than two edges cross a pixel only where the shadow is about its size.
 pub fn polygon_coverage<V: Vector>(b: &PolygonBlocker<V>, footprint: &Footprint<V>) -> V::Real {
-    let mut coverage = V::Real::ONE;
+    let (mut first, mut second) = (Edge::NONE, Edge::NONE);
     for (normal, offset) in b.planes() {
-        coverage = coverage.min(edge_coverage(normal.dot(footprint.point) + offset, normal, footprint));
+        let edge = Edge::new(normal.dot(footprint.point) + offset, normal, footprint);
+        if edge.coverage < first.coverage {
+            (first, second) = (edge, first);
+        } else if edge.coverage < second.coverage {
+            second = edge;
+        }
     }
-    coverage
+    corner_coverage(&first, &second)
 }

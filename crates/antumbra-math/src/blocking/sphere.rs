@@ -1,6 +1,6 @@
 //! A ball between a point and a light.
 
-use super::coverage::edge_coverage;
+use super::coverage::Edge;
 use super::{Blocker, Blockers, Footprint, Outline};
 use crate::Sphere;
 use crate::real::{Real, Vector};
@@ -67,5 +67,5 @@ pub fn sphere_coverage<V: Vector>(b: &SphereBlocker<V>, footprint: &Footprint<V>
     let nearest = to_center - direction * along; // from the line to the centre
     let lever = V::Real::ONE - b.light_w * along / distance; // the light end of the line stays put
     let gradient = nearest * (lever / miss.max(V::Real::from_f64(1e-30)));
-    edge_coverage(b.radius - miss, gradient, footprint)
+    Edge::new(b.radius - miss, gradient, footprint).coverage
 }

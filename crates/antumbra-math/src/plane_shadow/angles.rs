@@ -91,10 +91,15 @@ impl Angles {
         Self { spans }
     }
 
-    /// The spans, cut at every multiple of π/2.
-    pub(super) fn quarters(&self) -> Vec<(f64, f64)> {
-        let mut cut = Vec::new();
-        for &(from, to) in &self.spans {
+    /// The spans.
+    pub(super) fn spans(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.spans.iter().copied()
+    }
+
+    /// The spans, each cut at every multiple of π/2.
+    pub(super) fn quarters(&self) -> Vec<Vec<(f64, f64)>> {
+        let quarter = |&(from, to): &(f64, f64)| {
+            let mut cut = Vec::new();
             let mut at = from;
             let mut next = (from / (PI / 2.0)).floor() + 1.0;
             while next * (PI / 2.0) < to {
@@ -103,8 +108,9 @@ impl Angles {
                 next += 1.0;
             }
             cut.push((at, to));
-        }
-        cut
+            cut
+        };
+        self.spans.iter().map(quarter).collect()
     }
 }
 
@@ -114,7 +120,7 @@ mod tests {
 
     #[test]
     fn quarters_of_the_circle() {
-        let quarters = Angles::all().quarters();
+        let quarters = Angles::all().quarters().concat();
         assert_eq!(quarters.len(), 4, "four quarters: {quarters:?}");
         let total: f64 = quarters.iter().map(|q| q.1 - q.0).sum();
         assert!((total - TAU).abs() < 1e-14, "they make up the circle: {total}");

@@ -14,7 +14,7 @@
 use glam::DVec3;
 
 use super::angles::Angles;
-use super::conic::{Curve, Ring};
+use super::conic::{Curve, IDEAL, Ring};
 use super::disc::{disc, project};
 use super::edge::Edge;
 use super::outline::Outline;
@@ -44,17 +44,13 @@ struct Seen {
 impl Seen {
     fn new(setting: &Setting, cone: &Cone) -> Option<Self> {
         let axis = setting.direction(cone.axis).normalize_or_zero();
-        let center = setting.point(cone.base_center);
         let (radius, height) = (cone.radius, cone.height);
+        let center = setting.resting(setting.point(cone.base_center), radius + height);
         let rim = Ring::new(center, axis, radius);
         let apex = center + axis * height;
         let to_light = setting.to_light(apex);
         let slope = height / radius;
-        let side = [
-            radius * axis.dot(to_light),
-            slope * rim.a.dot(to_light),
-            slope * rim.b.dot(to_light),
-        ];
+        let side = [radius * axis.dot(to_light), slope * rim.a.dot(to_light), slope * rim.b.dot(to_light)];
         let base = -axis.dot(setting.to_light(center));
         let usable = radius > 0.0 && height > 0.0 && axis != DVec3::ZERO && apex.is_finite();
         usable.then_some(Self { apex, axis, rim, radius, height, side, base })
@@ -66,6 +62,59 @@ impl Seen {
         (out * self.height + self.axis * self.radius).normalize_or_zero()
     }
 
+    /// The rim's point at angle `t`; in the plane, if it was meant to be.
+    fn rim_at(&self, t: f64) -> DVec3 {
+        let p = self.rim.at(t);
+        let noise = 8.0 * f64::EPSILON * (self.rim.center.z.abs() + self.rim.a.z.abs());
+        if p.z.abs() <= noise { p.with_z(0.0) } else { p }
+    }
+
+    /// Where the line through the apex and a point `p` (weight 1) meets the plane; linear in `p`, so
+    /// that it maps directions (weight 0) too. The weight is positive if the point and the apex are on
+    /// different sides of the plane.
+    fn meet(&self, p: DVec3, weight: f64) -> DVec3 {
+        let apex = self.apex;
+        let scale = apex.z.signum() / (apex.z.abs() + self.rim.center.z.abs() + self.rim.a.z.abs());
+        (p * apex.z - apex * p.z).with_z(apex.z * weight - p.z) * scale
+    }
+
+    /// The section of the side by the plane, by the rim's angle.
+    fn section(&self) -> Curve {
+        let Ring { center, a, b } = self.rim;
+        Curve::new(self.meet(center, 1.0), self.meet(a, 0.0), self.meet(b, 0.0))
+    }
+
+    /// A point of the section. Where rim and apex are both next to the plane it is all rounding, and
+    /// every user of it needs to have the same.
+    fn crossing(&self, t: f64) -> DVec3 {
+        self.meet(self.rim_at(t), 1.0)
+    }
+
+    /// The shadow of the line from the rim's point at angle `t` to the apex, as far as it is above the
+    /// plane and below the light.
+    fn generator(&self, setting: &Setting, t: f64) -> Option<Edge> {
+        let rim = self.rim_at(t);
+        let crossing = || {
+            let p = self.crossing(t);
+            p / p.z
+        };
+        let snap = |p: DVec3| if p.z.abs() <= IDEAL { p.with_z(0.0) } else { p };
+        let (from, to) = match (rim.z >= 0.0, self.apex.z >= 0.0) {
+            (true, true) => (setting.project(rim), setting.project(self.apex)),
+            (true, false) => (setting.project(rim), crossing()),
+            (false, true) => (crossing(), setting.project(self.apex)),
+            (false, false) => return None,
+        };
+        let (from, to) = (snap(from), snap(to));
+        let ideal = from.lerp(to, from.z / (from.z - to.z)).with_z(0.0);
+        match (from.z >= 0.0, to.z >= 0.0) {
+            (true, true) => Some(Edge::Line([from, to])),
+            (true, false) => Some(Edge::Line([from, ideal])),
+            (false, true) => Some(Edge::Line([ideal, to])),
+            (false, false) => None,
+        }
+    }
+
     /// The shadow where the light, which has a position, is inside the cone or touches it.
     fn touched(&self, setting: &Setting) -> Option<PlaneShadow> {
         let [f0, fa, fb] = self.side;
@@ -75,7 +124,7 @@ impl Seen {
         if from_apex.length() <= near {
             // The solid angle of the cone itself: all that the base hides, the plane or not.
             let curve = project(setting, &self.rim);
-            return Some(PlaneShadow::conic_region(curve, curve.edges(&curve.in_front())));
+            return Some(PlaneShadow::conic_region(curve, &curve.chains(&curve.in_front())));
         }
         // Distances outwards from the base and from the side, metres.
         let base = self.base / setting.light.w;
@@ -110,8 +159,8 @@ pub(super) fn cone(setting: &Setting, cone: &Cone) -> PlaneShadow {
         return shadow;
     }
     let (rim, apex) = (&seen.rim, seen.apex);
-    let slack = setting.slack(apex.length() + rim.center.length() + seen.radius);
-    if apex.z.max(rim.top()) <= slack {
+    let slack = setting.slack(apex, seen.radius + seen.height);
+    if apex.z.max(rim.top()) <= 2.0 * slack {
         return PlaneShadow::nothing();
     }
     let lit_side = Angles::where_nonnegative(seen.side[0], seen.side[1], seen.side[2]);
@@ -119,79 +168,49 @@ pub(super) fn cone(setting: &Setting, cone: &Cone) -> PlaneShadow {
 
     // The rim, where one of its faces is seen and the other is not.
     let silhouette = if lit_base { lit_side.complement() } else { lit_side.clone() };
-    let rim_above = rim.above(slack);
+    let rim_above = rim.above();
     let rim_curve = project(setting, rim);
     let rim_angles = silhouette.and(&rim_above);
-    let rim_edges = rim_curve.edges(&rim_angles.and(&rim_curve.in_front()));
+    let rim_arcs = rim_curve.chains(&rim_angles.and(&rim_curve.in_front()));
 
     // The lines in which the light grazes the side.
     let lines = lit_side.ends().into_iter().flatten();
-    let lines: Vec<Edge> = lines.filter_map(|t| generator(setting, rim.at(t), apex, slack)).collect();
+    let line = |t| seen.generator(setting, t).map(|line| vec![line]);
+    let lines: Vec<Vec<Edge>> = lines.filter_map(line).collect();
 
     // The section of the side.
-    let mut section_edges = Vec::new();
+    let mut section_arcs = Vec::new();
     let mut section_curve = None;
-    let apex_height = apex.z + slack;
-    let below = if apex_height > 0.0 { rim_above.complement() } else { rim_above.clone() };
+    let below = if apex.z > 0.0 { rim_above.complement() } else { rim_above.clone() };
     let section_angles = lit_side.and(&below);
-    if apex.z.abs() <= slack {
-        // The sections of all generators are the apex.
+    if apex.z.abs() <= 2.0 * slack {
+        // The section is a triangle: every line from rim to apex meets the plane in the apex, but for
+        // the two that lie in it.
         let corner = apex.with_z(1.0);
-        if !section_angles.is_none() && !rim_above.is_none() && !rim_above.is_all() {
-            section_edges.push(Edge::Line([corner, corner]));
+        let end = |t: f64| {
+            let p = seen.rim_at(t);
+            if p.z == 0.0 { p.with_z(1.0) } else { corner }
+        };
+        let side =
+            |(from, to): (f64, f64)| vec![Edge::Line([end(from), corner]), Edge::Line([corner, end(to)])];
+        if !rim_above.is_none() && !rim_above.is_all() {
+            section_arcs.extend(section_angles.spans().map(side));
         }
     } else {
-        let curve = section(rim, apex);
-        section_edges = curve.edges(&section_angles);
+        let curve = seen.section();
+        section_arcs = curve.chains_between(&section_angles, |t| seen.crossing(t));
         section_curve = Some(curve);
     }
 
-    match (rim_edges.is_empty(), lines.is_empty(), section_curve) {
-        (false, true, _) if section_edges.is_empty() && rim_angles.is_all() => {
-            PlaneShadow::conic_region(rim_curve, rim_edges)
+    match (rim_arcs.is_empty(), lines.is_empty(), section_curve) {
+        (false, true, _) if section_arcs.is_empty() && rim_angles.is_all() => {
+            PlaneShadow::conic_region(rim_curve, &rim_arcs)
         }
         (true, true, Some(curve)) if section_angles.is_all() => {
-            PlaneShadow::conic_region(curve, section_edges)
+            PlaneShadow::conic_region(curve, &section_arcs)
         }
-        _ => {
-            let pieces = [rim_edges, lines, section_edges].concat();
-            PlaneShadow::region(pieces)
-        }
+        _ => PlaneShadow::region(&[rim_arcs, lines, section_arcs].concat()),
     }
-}
-
-/// The shadow of the line from a point of the rim to the apex, as far as it is above the plane and
-/// below the light.
-fn generator(setting: &Setting, rim: DVec3, apex: DVec3, slack: f64) -> Option<Edge> {
-    // The part of the way from rim to apex where a linear function is not negative.
-    let range = |rim: f64, apex: f64| {
-        let cut = rim / (rim - apex);
-        match (rim >= 0.0, apex >= 0.0) {
-            (true, true) => Some((0.0, 1.0)),
-            (true, false) => Some((0.0, cut)),
-            (false, true) => Some((cut, 1.0)),
-            (false, false) => None,
-        }
-    };
-    let (from, to) = (setting.project(rim), setting.project(apex));
-    let snap = |weight: f64| if weight.abs() <= setting.slack(1.0) { 0.0 } else { weight };
-    let (above, below) = (range(rim.z + slack, apex.z + slack)?, range(snap(from.z), snap(to.z))?);
-    let (start, end) = (above.0.max(below.0), above.1.min(below.1));
-    let at = |t: f64| {
-        let p = from.lerp(to, t);
-        p.with_z(snap(p.z).max(0.0))
-    };
-    (start < end).then(|| Edge::Line([at(start), at(end)]))
-}
-
-/// The section of the side by the plane, by the rim's angle: where the line through the apex and the
-/// rim's point meets the plane. Its weights are those of points of the rim's side of the apex.
-fn section(rim: &Ring, apex: DVec3) -> Curve {
-    // h_apex rim(t) - h_rim(t) apex, with the weight h_apex - h_rim(t), over the height of the apex
-    // above the rim's centre or below.
-    let scale = apex.z.signum() / (apex.z.abs() + rim.center.z.abs() + rim.a.z.abs());
-    let meet = |p: DVec3, w: f64| (p * apex.z - apex * p.z).with_z(apex.z * w - p.z) * scale;
-    Curve::new(meet(rim.center, 1.0), meet(rim.a, 0.0), meet(rim.b, 0.0))
 }
 
 /// The common part of two half-planes' shadows, of which `f` describes the second.

@@ -11,8 +11,9 @@ use super::edge::Edge;
 /// lies beyond 1e12 times the size of the shadow's near end.
 const PARABOLIC: f64 = 1e-12;
 
-/// Weights below this fraction of the largest are zero: the point lies at infinity.
-const IDEAL: f64 = 1e-14;
+/// Weights 1 - h/H below this are zero, and the shadow at infinity: rounding leaves 1e-16 of a point
+/// meant to be as high as the light.
+pub(super) const IDEAL: f64 = 1e-14;
 
 /// A conic of the plane: the points p = (x, y, 1) with pᵀ K p = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,9 +75,9 @@ impl Ring {
         self.center.z - self.a.z
     }
 
-    /// The angles where the circle is at height -`slack` or above.
-    pub(super) fn above(&self, slack: f64) -> Angles {
-        Angles::where_nonnegative(self.center.z + slack, self.a.z, 0.0)
+    /// The angles where the circle is above the plane.
+    pub(super) fn above(&self) -> Angles {
+        Angles::where_nonnegative(self.center.z, self.a.z, 0.0)
     }
 }
 
@@ -116,20 +117,22 @@ impl Curve {
         Angles::where_nonnegative(self.c.z, self.a.z, 0.0)
     }
 
-    /// The parts of the curve over `angles`, which must all be in front, as arcs of at most a
-    /// quarter turn.
-    pub(super) fn edges(&self, angles: &Angles) -> Vec<Edge> {
+    /// The parts of the curve over `angles`, which must all be in front: a chain for each span, of
+    /// arcs of at most a quarter turn.
+    pub(super) fn chains(&self, angles: &Angles) -> Vec<Vec<Edge>> {
+        self.chains_between(angles, |t| self.c + self.a * t.cos() + self.b * t.sin())
+    }
+
+    /// The same with the arcs' ends as `end` computes them.
+    pub(super) fn chains_between(&self, angles: &Angles, end: impl Fn(f64) -> DVec3) -> Vec<Vec<Edge>> {
         let noise = IDEAL * (self.c.z.abs() + self.a.z.abs());
         let snap = |p: DVec3| if p.z <= noise { p.with_z(0.0) } else { p };
-        let point = |t: f64, weight: f64| {
-            let (sin, cos) = t.sin_cos();
-            snap(self.c * weight + self.a * cos + self.b * sin)
-        };
         let arc = |(from, to): (f64, f64)| {
             let (half, middle) = (0.5 * (to - from), 0.5 * (to + from));
-            Edge::Arc([point(from, 1.0), point(middle, half.cos()), point(to, 1.0)])
+            let control = self.c * half.cos() + self.a * middle.cos() + self.b * middle.sin();
+            Edge::Arc([snap(end(from)), snap(control), snap(end(to))])
         };
-        angles.quarters().into_iter().map(arc).collect()
+        angles.quarters().into_iter().map(|span| span.into_iter().map(arc).collect()).collect()
     }
 
     /// The equation.

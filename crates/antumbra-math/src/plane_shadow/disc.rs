@@ -7,11 +7,11 @@
 
 use glam::{DVec2, DVec3};
 
+use super::PlaneShadow;
 use super::conic::{Curve, Ring};
 use super::outline::Outline;
 use super::polygon::EDGE_ON;
 use super::setting::Setting;
-use super::PlaneShadow;
 
 /// The projection of a circle.
 pub(super) fn project(setting: &Setting, ring: &Ring) -> Curve {
@@ -28,27 +28,24 @@ pub(super) fn disc(setting: &Setting, center: DVec3, normal: DVec3, radius: f64)
     if radius.is_nan() || radius <= 0.0 || normal == DVec3::ZERO {
         return PlaneShadow::nothing();
     }
+    let slack = setting.slack(center, radius);
+    let center = setting.resting(center, radius);
     let ring = Ring::new(center, normal, radius);
-    let slack = setting.slack(center.length() + radius);
-    if ring.top() <= slack {
+    if ring.top() <= 2.0 * slack {
         return PlaneShadow::nothing();
     }
     let curve = project(setting, &ring);
-    let above = ring.above(slack);
-    let edges = curve.edges(&above.and(&curve.in_front()));
+    let above = ring.above();
+    let chains = curve.chains(&above.and(&curve.in_front()));
     let to_light = setting.to_light(center);
     if normal.dot(to_light).abs() <= EDGE_ON * to_light.length() {
         let along = DVec2::new(normal.y, -normal.x).normalize_or_zero();
-        return match Outline::from_pieces(edges) {
+        return match Outline::from_chains(&chains) {
             Some(outline) => {
                 PlaneShadow::segment(&[outline.support(-along).1, outline.support(along).1], along)
             }
             None => PlaneShadow::nothing(),
         };
     }
-    if above.is_all() {
-        PlaneShadow::conic_region(curve, edges)
-    } else {
-        PlaneShadow::region(edges)
-    }
+    if above.is_all() { PlaneShadow::conic_region(curve, &chains) } else { PlaneShadow::region(&chains) }
 }

@@ -77,9 +77,7 @@ impl Edge {
     pub(super) fn is_curved(&self) -> bool {
         match *self {
             Self::Line(_) => false,
-            Self::Arc([a, b, c]) => {
-                b.dot(c.cross(a)).abs() > PARALLEL * a.length() * b.length() * c.length()
-            }
+            Self::Arc([a, b, c]) => b.dot(c.cross(a)).abs() > PARALLEL * a.length() * b.length() * c.length(),
         }
     }
 
@@ -224,8 +222,7 @@ fn segment_ratio(omega: f64) -> f64 {
         return above / (sine * sine * sine);
     }
     let sine = ((omega - 1.0) * (omega + 1.0)).abs().sqrt();
-    let numerator =
-        if omega <= 1.0 { omega.acos() - sine * omega } else { sine * omega - omega.acosh() };
+    let numerator = if omega <= 1.0 { omega.acos() - sine * omega } else { sine * omega - omega.acosh() };
     numerator / (sine * sine * sine)
 }
 
@@ -254,8 +251,7 @@ mod tests {
         // x² - y² = 1, x > 0, to y = ± sinh β: between arc and chord sinh β cosh β - β.
         let beta: f64 = 1.3;
         let (s, c) = (beta.sinh(), beta.cosh());
-        let hyperbola =
-            Edge::Arc([DVec3::new(c, -s, 1.0), DVec3::new(1.0, 0.0, c), DVec3::new(c, s, 1.0)]);
+        let hyperbola = Edge::Arc([DVec3::new(c, -s, 1.0), DVec3::new(1.0, 0.0, c), DVec3::new(c, s, 1.0)]);
         let error = hyperbola.bulge().abs() - (s * c - beta);
         assert!(error.abs() < 1e-13, "hyperbola: {error:e}");
     }

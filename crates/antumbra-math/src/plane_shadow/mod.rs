@@ -205,14 +205,14 @@ impl PlaneShadow {
         }
     }
 
-    /// The convex region bounded by `pieces` in any order.
-    fn region(pieces: Vec<Edge>) -> Self {
-        Self::polygon(Outline::from_pieces(pieces))
+    /// The convex region bounded by `chains` in any order.
+    fn region(chains: &[Vec<Edge>]) -> Self {
+        Self::polygon(Outline::from_chains(chains))
     }
 
     /// The inside of a conic, of which `arcs` are the parts in front of the light.
-    fn conic_region(curve: Curve, arcs: Vec<Edge>) -> Self {
-        let outline = Outline::from_pieces(arcs);
+    fn conic_region(curve: Curve, arcs: &[Vec<Edge>]) -> Self {
+        let outline = Outline::from_chains(arcs);
         if outline.is_none() {
             return Self::nothing();
         }

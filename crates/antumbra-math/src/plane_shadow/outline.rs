@@ -1,8 +1,8 @@
 //! A convex region of the plane by its boundary: a closed loop of lines and conic arcs.
 //!
 //! The shadow of a convex occluder is convex: what is above the plane and below the light is convex,
-//! and the projection from the light keeps it so. Its boundary is found piece by piece, in any
-//! order; since it is convex, the pieces' directions from an inner point put them in order.
+//! and the projection from the light keeps it so. Its boundary is found in chains, in any
+//! order; since it is convex, the chains' directions from an inner point put them in order.
 
 use glam::{DVec2, DVec3};
 
@@ -25,22 +25,31 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// The region bounded by the given pieces and by straight lines over the gaps between them. The
-    /// pieces may come in any order and run either way. `None` if they bound nothing, or a number is
-    /// not finite.
-    pub(super) fn from_pieces(pieces: Vec<Edge>) -> Option<Self> {
-        let mut outline = Self { edges: pieces, origin: DVec2::ZERO, scale: 1.0 }.recentered()?;
-        let mut pieces: Vec<(f64, Edge)> = outline
-            .edges
-            .iter()
-            .map(|piece| {
-                let (a, b, middle) = (piece.start(), piece.end(), piece.at(0.5));
-                let turns_left = a.x * b.y - a.y * b.x >= 0.0;
-                (middle.y.atan2(middle.x), if turns_left { *piece } else { piece.reversed() })
-            })
-            .collect();
-        pieces.sort_by(|a, b| a.0.total_cmp(&b.0));
-        outline.edges = close(pieces.into_iter().map(|(_, piece)| piece), None);
+    /// The region bounded by the given chains of edges and by straight lines over the gaps between
+    /// them. The chains may come in any order and run either way; in a chain every edge ends where the
+    /// next one starts. `None` if they bound nothing, or a number is not finite.
+    pub(super) fn from_chains(chains: &[Vec<Edge>]) -> Option<Self> {
+        let lengths = chains.iter().map(Vec::len);
+        let mut outline = Self { edges: chains.concat(), origin: DVec2::ZERO, scale: 1.0 }.recentered()?;
+        let mut rest = outline.edges.as_slice();
+        let mut chains = Vec::with_capacity(chains.len());
+        for length in lengths.filter(|&length| length > 0) {
+            let (chain, after) = rest.split_at(length);
+            rest = after;
+            // The angle that the chain sweeps, seen from inside: the single edge may be too short or
+            // too far away to tell which way it runs.
+            let points = chain.iter().flat_map(|edge| [edge.start(), edge.at(0.5), edge.end()]);
+            let points: Vec<DVec2> = points.map(DVec3::truncate).collect();
+            let sweep: f64 = points.windows(2).map(|p| p[0].perp_dot(p[1]).atan2(p[0].dot(p[1]))).sum();
+            let middle = points[points.len() / 2];
+            let mut chain = chain.to_vec();
+            if sweep < 0.0 {
+                chain = chain.iter().rev().map(Edge::reversed).collect();
+            }
+            chains.push((middle.y.atan2(middle.x), chain));
+        }
+        chains.sort_by(|a, b| a.0.total_cmp(&b.0));
+        outline.edges = close(chains.into_iter().flat_map(|(_, chain)| chain), None);
         Some(outline)
     }
 
@@ -64,12 +73,12 @@ impl Outline {
     pub(super) fn polygon(corners: &[DVec3]) -> Option<Self> {
         let next = corners.iter().cycle().skip(1);
         let sides: Vec<Edge> = corners.iter().zip(next).map(|(&a, &b)| Edge::Line([a, b])).collect();
-        Self::from_pieces(sides)
+        Self::from_chains(&[sides])
     }
 
     /// The line between two homogeneous points, a region without area.
     pub(super) fn segment(a: DVec3, b: DVec3) -> Option<Self> {
-        Self::from_pieces(vec![Edge::Line([a, b])])
+        Self::from_chains(&[vec![Edge::Line([a, b])]])
     }
 
     /// The half-plane f · (x, y, 1) >= 0; `None` if f has no direction.
@@ -131,9 +140,7 @@ impl Outline {
     /// The point farthest along `direction`, homogeneous, and its coordinate along it.
     pub(super) fn support(&self, direction: DVec2) -> (f64, DVec3) {
         let supports = self.edges.iter().map(|edge| edge.support(direction));
-        let (value, p) = supports
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .unwrap_or((f64::NEG_INFINITY, DVec3::Z));
+        let (value, p) = supports.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, DVec3::Z));
         let point = (p.truncate() * self.scale + self.origin * p.z).extend(p.z);
         (value * self.scale + direction.dot(self.origin), point)
     }

@@ -8,6 +8,7 @@
 use glam::{DVec2, DVec3};
 
 use super::PlaneShadow;
+use super::conic::IDEAL;
 use super::outline::Outline;
 use super::setting::Setting;
 use crate::Plane;
@@ -23,12 +24,10 @@ pub(super) fn polygon(setting: &Setting, corners: &[DVec3]) -> PlaneShadow {
     let corners: Vec<DVec3> = corners.iter().map(|&p| setting.point(p)).collect();
     let first = corners[0];
     // Newell: twice the area, along the normal.
-    let normal: DVec3 =
-        corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum();
+    let normal: DVec3 = corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum();
     let size = corners.iter().map(|p| p.distance(first)).fold(0.0, f64::max);
     let has_area = normal.length() > THIN * size * size;
-    let reach = corners.iter().map(|p| p.length()).fold(0.0, f64::max);
-    let slack = setting.slack(reach);
+    let slack = setting.slack(first, size);
     if !has_area || corners.iter().all(|p| p.z <= slack) {
         return PlaneShadow::nothing();
     }
@@ -36,7 +35,7 @@ pub(super) fn polygon(setting: &Setting, corners: &[DVec3]) -> PlaneShadow {
     // A corner as high as the light has its shadow at infinity.
     let weight = |p: DVec3| {
         let weight = setting.project(p).z;
-        if weight.abs() <= setting.slack(1.0) { 0.0 } else { weight }
+        if weight.abs() <= IDEAL { 0.0 } else { weight }
     };
     let between = clip(&above, weight);
     if between.iter().all(|&p| weight(p) <= 0.0) {

@@ -81,9 +81,15 @@ impl Setting {
         DVec3::new(d.x - l.x * d.z, d.y - l.y * d.z, -l.w * d.z)
     }
 
-    /// The height below which points of something of the size and at the distance of `reach` lie in
-    /// the plane, metres.
-    pub(super) fn slack(&self, reach: f64) -> f64 {
-        RESTING * reach
+    /// The height that rounding may leave of a point meant to lie in the plane, on something of this
+    /// size at `at`, metres.
+    pub(super) fn slack(&self, at: DVec3, size: f64) -> f64 {
+        RESTING * (at.length() + size)
+    }
+
+    /// `p`, a point of something of this size, so much higher that what is meant to stand on the plane
+    /// is above it, not cut by it.
+    pub(super) fn resting(&self, p: DVec3, size: f64) -> DVec3 {
+        p + DVec3::Z * self.slack(p, size)
     }
 }

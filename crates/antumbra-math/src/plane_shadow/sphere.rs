@@ -18,12 +18,12 @@ use core::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::PlaneShadow;
 use super::angles::Angles;
 use super::conic::{Curve, Ring};
 use super::disc::project;
 use super::polygon::half_plane;
 use super::setting::Setting;
-use super::PlaneShadow;
 use crate::Sphere;
 
 /// A light within this fraction of the radius of the surface touches it.
@@ -47,7 +47,7 @@ pub(super) fn sphere(setting: &Setting, sphere: &Sphere) -> PlaneShadow {
         let inwards = -to_light / distance;
         return half_plane(inwards.with_z(inwards.dot(setting.from_light(DVec3::ZERO))));
     }
-    if center.z + r <= setting.slack(center.length() + r) {
+    if center.z + r <= setting.slack(center, r) {
         return PlaneShadow::nothing();
     }
     let contact = Ring::new(
@@ -56,10 +56,10 @@ pub(super) fn sphere(setting: &Setting, sphere: &Sphere) -> PlaneShadow {
         r * ((1.0 - sine) * (1.0 + sine)).sqrt(),
     );
     let curve = project(setting, &contact);
-    let above = contact.above(0.0);
-    let mut edges = curve.edges(&above.and(&curve.in_front()));
+    let above = contact.above();
+    let mut chains = curve.chains(&above.and(&curve.in_front()));
     if above.is_all() {
-        return PlaneShadow::conic_region(curve, edges);
+        return PlaneShadow::conic_region(curve, &chains);
     }
     // The section by the plane; empty for a ball above it, which `above` has excluded but for
     // rounding.
@@ -69,7 +69,7 @@ pub(super) fn sphere(setting: &Setting, sphere: &Sphere) -> PlaneShadow {
         let a = (towards * radius).extend(0.0);
         let curve = Curve::new(center.with_z(1.0), a, (towards.perp() * radius).extend(0.0));
         let lit = if half < PI { Angles::around(0.0, half) } else { Angles::all() };
-        (curve, curve.edges(&lit))
+        (curve, curve.chains(&lit))
     };
     match above.ends() {
         Some([from, _]) => {
@@ -77,12 +77,12 @@ pub(super) fn sphere(setting: &Setting, sphere: &Sphere) -> PlaneShadow {
             // of contact passes through the plane.
             let offset = (contact.at(from) - center).truncate();
             let half = offset.dot(towards.perp()).abs().atan2(offset.dot(towards));
-            edges.extend(section(half).1);
-            PlaneShadow::region(edges)
+            chains.extend(section(half).1);
+            PlaneShadow::region(&chains)
         }
         None => {
-            let (curve, edges) = section(PI);
-            PlaneShadow::conic_region(curve, edges)
+            let (curve, chains) = section(PI);
+            PlaneShadow::conic_region(curve, &chains)
         }
     }
 }

@@ -9,7 +9,9 @@ impl Shape {
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
         match self {
             Self::Plane(s) => (s.normal * s.offset, f64::INFINITY),
-            Self::Rectangle(s) => (s.center, (s.half_right.length_squared() + s.half_forward.length_squared()).sqrt()),
+            Self::Rectangle(s) => {
+                (s.center, (s.half_right.length_squared() + s.half_forward.length_squared()).sqrt())
+            }
             Self::Disc(s) => (s.center, s.radius),
             Self::Triangle(s) => {
                 let center = s.vertices.iter().sum::<DVec3>() / 3.0;
