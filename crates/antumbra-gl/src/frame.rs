@@ -94,7 +94,7 @@ impl Default for DepthFormat {
 /// A texture of surface normals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Normals {
-    /// xyz, of any length but zero.
+    /// xyz, of about unit length, to either side of the surface.
     pub texture: glow::Texture,
     /// What the texture's xyz are.
     pub space: NormalSpace,

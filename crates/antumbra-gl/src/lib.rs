@@ -13,6 +13,7 @@ mod renderer;
 mod resources;
 mod shader;
 mod state;
+mod tiles;
 mod view;
 
 pub use caps::{Caps, Tier};

@@ -3,10 +3,11 @@
 use crate::frame::{Light, Occluder};
 use crate::proxy::ProxyBuilder;
 use crate::shader::ProgramId;
+use crate::tiles::TileGrid;
 use crate::view::View;
 use antumbra_math::blocking::{Blocker, Blockers};
 use antumbra_math::{Plane, Shape};
-use glam::{DVec3, Vec4};
+use glam::{DVec2, DVec3, Vec4};
 
 /// Lights in one batch: two RGBA targets, a channel a light.
 pub const BATCH_LIGHTS: usize = 8;
@@ -50,6 +51,10 @@ pub(crate) struct PairBuilder {
     pub(crate) vertices: Vec<Vertex>,
     /// The draws of the batch.
     pub(crate) draws: Vec<Draw>,
+    /// First and number of the vertices that cover the touched tiles.
+    pub(crate) screen_draw: (i32, i32),
+    /// The tiles that the batch's polygons touch, and those of the whole frame.
+    tiles: [TileGrid; 2],
     /// Pairs that were looked at, and polygons that are drawn, since the frame began.
     pub(crate) counts: (usize, usize),
 }
@@ -58,6 +63,7 @@ impl PairBuilder {
     /// Takes the frame's occluders into view space.
     pub(crate) fn begin(&mut self, occluders: &[Occluder], bounds: &[Plane], view: &View) {
         self.counts = (0, 0);
+        self.tiles[1].reset(viewport_size(view));
         self.shapes_vs.clear();
         self.bounds_vs.clear();
         self.bounds_vs.extend(bounds.iter().map(|b| b.transformed(&view.view)));
@@ -77,6 +83,7 @@ impl PairBuilder {
     /// Packs the pairs of up to [`BATCH_LIGHTS`] lights.
     pub(crate) fn pack(&mut self, lights: &[Light], view: &View) {
         self.texels.clear();
+        self.tiles[0].reset(viewport_size(view));
         self.lists.iter_mut().for_each(Vec::clear);
         for (i, light) in lights.iter().enumerate() {
             if light.intensity == glam::Vec3::ZERO {
@@ -95,25 +102,38 @@ impl PairBuilder {
             });
             self.vertices.extend_from_slice(list);
         }
+        let [batch, frame] = &mut self.tiles;
+        frame.add(batch);
+        self.screen_draw = pack_tiles(batch, &mut self.vertices);
+    }
+
+    /// Packs the tiles that any batch of the frame has touched, and nothing else.
+    pub(crate) fn pack_frame_tiles(&mut self) {
+        self.texels.clear();
+        self.vertices.clear();
+        self.draws.clear();
+        self.screen_draw = pack_tiles(&self.tiles[1], &mut self.vertices);
     }
 
     fn pack_light(&mut self, index: usize, light_vs: &antumbra_math::Light, view: &View) {
-        let to_clip = [2.0 / f64::from(view.viewport[2]), 2.0 / f64::from(view.viewport[3])];
+        let size = viewport_size(view);
         for &(shape, id, center, radius) in &self.shapes_vs {
             self.counts.0 += 1;
             if !light_vs.may_reach(center, radius) || hides_its_own_shadow(&shape, id, light_vs) {
                 continue;
             }
             for (blocker, outline) in Blockers::new(&shape, light_vs).iter() {
-                let polygon = self.proxy.bound(outline, light_vs.homogeneous(), view, &self.bounds_vs);
+                let polygon =
+                    self.proxy.bound(outline, id == 0, light_vs.homogeneous(), view, &self.bounds_vs);
                 if polygon.len() < 3 {
                     continue;
                 }
                 self.counts.1 += 1;
+                self.tiles[0].touch(polygon);
                 let first = self.texels.len() as u32;
                 let kind = pack_blocker(blocker, &mut self.texels);
-                let vertex = |p: glam::DVec2| Vertex {
-                    position: [(p.x * to_clip[0] - 1.0) as f32, (p.y * to_clip[1] - 1.0) as f32],
+                let vertex = |p: DVec2| Vertex {
+                    position: clip_position(p, size),
                     blocker: first * 4 + (index % GROUP_LIGHTS) as u32,
                     id,
                 };
@@ -124,6 +144,26 @@ impl PairBuilder {
             }
         }
     }
+}
+
+fn viewport_size(view: &View) -> DVec2 {
+    DVec2::new(f64::from(view.viewport[2]), f64::from(view.viewport[3]))
+}
+
+/// Two triangles a run of touched tiles; the first vertex and their number.
+fn pack_tiles(tiles: &TileGrid, vertices: &mut Vec<Vertex>) -> (i32, i32) {
+    let first = vertices.len();
+    let size = tiles.size();
+    tiles.runs(|a, b| {
+        let corners = [a, DVec2::new(b.x, a.y), b, a, b, DVec2::new(a.x, b.y)];
+        vertices.extend(corners.map(|p| Vertex { position: clip_position(p, size), blocker: 0, id: 0 }));
+    });
+    (first as i32, (vertices.len() - first) as i32)
+}
+
+/// From pixels of the viewport to clip space.
+fn clip_position(p: DVec2, size: DVec2) -> [f32; 2] {
+    (p / size * 2.0 - 1.0).as_vec2().to_array()
 }
 
 /// Whether nothing that is seen can lie in the shape's shadow: an opaque infinite plane, drawn by

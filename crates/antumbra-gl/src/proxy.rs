@@ -27,10 +27,12 @@ const FAR_PIXELS: f64 = 1e9;
 impl ProxyBuilder {
     /// The convex polygon, in pixels of the viewport and clipped to it, that holds every pixel
     /// whose surface the shadow starting at `outline` (view space) can reach, wherever that
-    /// surface is inside the half-spaces `bounds_vs`. Empty when there is no such pixel.
+    /// surface is inside the half-spaces `bounds_vs`. `hollow` occluders are not drawn by the host, and
+    /// what is inside them can be seen. Empty when there is no such pixel.
     pub(crate) fn bound(
         &mut self,
         outline: &Outline,
+        hollow: bool,
         light_vs: DVec4,
         view: &View,
         bounds_vs: &[Plane],
@@ -45,7 +47,7 @@ impl ProxyBuilder {
         self.away.clear();
         self.rays.clear();
         let clip = |p: DVec3| view.projection * p.extend(1.0);
-        outline.near_end(light_vs, |p, extends| {
+        outline.near_end(light_vs, hollow, |p, extends| {
             self.near.push(clip(p));
             if extends {
                 self.rays.push((p, p * light_vs.w - light_vs.truncate()));

@@ -26,7 +26,6 @@ pub struct Renderer {
     caps: Caps,
     /// Of each variant that has been used, the programs by [`ProgramId`].
     programs: [Vec<Program>; Variant::COUNT],
-    screen: glow::VertexArray,
     uploads: Vec<Upload>,
     next_upload: usize,
     visibility: [Option<Target>; BATCH_LIGHTS / GROUP_LIGHTS],
@@ -79,16 +78,10 @@ impl Renderer {
     /// [`Error::TooOld`], [`Error::Resource`].
     pub fn new(gl: Arc<glow::Context>) -> Result<Self, Error> {
         let caps = Caps::query(&gl)?;
-        let guard = StateGuard::new(&gl, caps);
-        // SAFETY: the guard is alive, and whoever calls this has the context current.
-        let screen = unsafe { gl.create_vertex_array() }
-            .map_err(|_| Error::Resource { what: "a vertex array".into() })?;
-        drop(guard);
         let mut renderer = Self {
             gl: gl.clone(),
             caps,
             programs: Default::default(),
-            screen,
             uploads: Vec::new(),
             next_upload: 0,
             visibility: [None, None],
@@ -181,6 +174,8 @@ impl Renderer {
                 }
             }
             if !one_batch && self.stats.polygons > 0 {
+                self.pairs.pack_frame_tiles();
+                self.upload()?;
                 for lights in frame.lights.chunks(BATCH_LIGHTS) {
                     self.draw_screen(ProgramId::All, lights, frame, &view, gamma, &guard);
                 }
@@ -245,22 +240,17 @@ impl Renderer {
         view: &View,
         surface: &Surface,
     ) -> Result<(), Error> {
-        let gl = &self.gl;
         self.pairs.pack(lights, view);
-        let upload = &mut self.uploads[self.next_upload];
-        self.next_upload = (self.next_upload + 1) % UPLOADS;
         self.stats.batches += 1;
         (self.stats.pairs, self.stats.polygons) = self.pairs.counts;
         // SAFETY: the caller's.
         unsafe {
             if !self.pairs.draws.is_empty() {
-                let vertices = bytemuck::cast_slice(&self.pairs.vertices);
-                upload.fill(gl, &self.caps, vertices, &mut self.pairs.texels)?;
+                self.upload()?;
             }
+            let gl = &self.gl;
             gl.viewport(0, 0, view.viewport[2], view.viewport[3]);
             Blend::Min.apply(gl, self.caps);
-            gl.bind_vertex_array(Some(upload.vertex_array));
-            bind_texture(gl, 3, 1, upload.texture);
             let programs = &self.programs[Variant::of(surface).index()];
             for (group, target) in self.visibility.iter().flatten().enumerate() {
                 gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
@@ -277,7 +267,24 @@ impl Renderer {
         Ok(())
     }
 
-    /// Draws one of the passes over the whole viewport.
+    /// Uploads what was packed, and binds its vertices, and its blockers to unit 3.
+    ///
+    /// # Safety
+    /// A [`StateGuard`] is alive.
+    unsafe fn upload(&mut self) -> Result<(), Error> {
+        let upload = &mut self.uploads[self.next_upload];
+        self.next_upload = (self.next_upload + 1) % UPLOADS;
+        let vertices = bytemuck::cast_slice(&self.pairs.vertices);
+        // SAFETY: the caller's.
+        unsafe {
+            upload.fill(&self.gl, &self.caps, vertices, &mut self.pairs.texels)?;
+            self.gl.bind_vertex_array(Some(upload.vertex_array));
+            bind_texture(&self.gl, 3, 1, upload.texture);
+        }
+        Ok(())
+    }
+
+    /// Draws one of the passes over the tiles that shadows touch.
     ///
     /// # Safety
     /// As for [`Self::draw_visibility`].
@@ -311,7 +318,6 @@ impl Renderer {
             let blend = if own_target.is_some() { Blend::Add } else { Blend::Multiply };
             blend.apply(gl, self.caps);
             gl.use_program(Some(program.raw));
-            gl.bind_vertex_array(Some(self.screen));
             set_surface(gl, program, view, &frame.surface, surface_offset);
             let u = &program.uniforms;
             let inputs = match pass {
@@ -338,7 +344,8 @@ impl Renderer {
             } else {
                 None
             };
-            gl.draw_arrays(glow::TRIANGLES, 0, 3);
+            let (first, count) = self.pairs.screen_draw;
+            gl.draw_arrays(glow::TRIANGLES, first, count);
             if let Some(others) = others {
                 others.restore(gl);
             }
@@ -352,7 +359,6 @@ impl Drop for Renderer {
         // SAFETY: the objects are this renderer's own and not used afterwards; the context is
         // current, as the type's documentation demands.
         unsafe {
-            gl.delete_vertex_array(self.screen);
             self.programs.iter().flatten().for_each(|p| gl.delete_program(p.raw));
             self.uploads.iter().for_each(|upload| upload.delete(gl));
             let targets = self.visibility.iter_mut().chain([&mut self.taken, &mut self.all]);

@@ -5,10 +5,10 @@
 //! ```
 //!
 //! Spheres over a floor under point lights (8, 8, 512 by default). Each round draws the frame
-//! plainly and with shadows, one after the other, every frame between two glFinish; the first
+//! plainly (colour and depth alone) and with shadows, one after the other, every frame between two glFinish; the first
 //! rounds are dropped. Absolute times depend on the machine, the ratio is what counts.
 
-use antumbra_host::{Api, ColorFormat, HeadlessContext, Setting, Stage};
+use antumbra_host::{Api, Buffers, ColorFormat, HeadlessContext, Setting, Stage};
 use antumbra_scene::Scene;
 use glow::HasContext;
 use std::fmt::Write;
@@ -60,7 +60,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             // SAFETY: waits for the context of this thread.
             unsafe { gl.finish() };
             let start = Instant::now();
-            stage.draw(&setting, size, size, 1, ColorFormat::Rgba8)?;
+            let buffers = if with_shadows { Buffers::All } else { Buffers::Color };
+            stage.draw(&setting, size, size, 1, ColorFormat::Rgba8, buffers)?;
             if with_shadows {
                 stage.add_shadows(&setting)?;
             }

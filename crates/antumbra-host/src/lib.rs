@@ -16,5 +16,5 @@ pub use context::{Api, ContextInfo, HeadlessContext};
 pub use describe::{Described, describe};
 pub use error::HostError;
 pub use picture::{RenderOptions, Rendered};
-pub use stage::{Setting, Stage};
+pub use stage::{Buffers, Setting, Stage};
 pub use targets::ColorFormat;

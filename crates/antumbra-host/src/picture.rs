@@ -1,7 +1,7 @@
 //! Pictures and visibilities read back from the stage.
 
 use crate::HostError;
-use crate::stage::{Setting, Stage};
+use crate::stage::{Buffers, Setting, Stage};
 use crate::targets::ColorFormat;
 use antumbra::glam::{DVec3, Vec3};
 use antumbra::math::Light as Place;
@@ -46,7 +46,7 @@ impl Stage {
     pub fn render(&mut self, scene: &Scene, options: &RenderOptions) -> Result<Rendered, HostError> {
         let RenderOptions { width, height, .. } = *options;
         let setting = Setting::new(scene, options.time, f64::from(width) / f64::from(height))?;
-        self.draw(&setting, width, height, options.msaa, ColorFormat::Rgba16F)?;
+        self.draw(&setting, width, height, options.msaa, ColorFormat::Rgba16F, Buffers::All)?;
         if options.shadows {
             self.add_shadows(&setting)?;
         }
@@ -54,7 +54,7 @@ impl Stage {
         let image = self.read_color()?;
         let visibility = if options.visibility {
             if options.msaa > 1 {
-                self.draw(&setting, width, height, 1, ColorFormat::Rgba16F)?;
+                self.draw(&setting, width, height, 1, ColorFormat::Rgba16F, Buffers::All)?;
             }
             self.read_visibility(&setting)?
         } else {

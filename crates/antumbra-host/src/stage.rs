@@ -23,6 +23,17 @@ pub struct Stage {
     pub(crate) targets: Option<Targets>,
 }
 
+/// Which buffers the host fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Buffers {
+    /// Colour and depth, as a host without shadows does.
+    Color,
+    /// Normals and object ids too.
+    All,
+}
+
+const ATTACHMENTS: [u32; 3] = [glow::COLOR_ATTACHMENT0, glow::COLOR_ATTACHMENT1, glow::COLOR_ATTACHMENT2];
+
 /// A scene at one moment, ready to be drawn any number of times.
 pub struct Setting {
     /// The lights and occluders in antumbra's terms.
@@ -122,7 +133,8 @@ impl Stage {
         &self.shadows
     }
 
-    /// Draws the scene without shadows into the stage's own targets.
+    /// Draws the scene without shadows into the stage's own targets, with the normals and ids that
+    /// shadows are drawn from if `buffers` says so.
     ///
     /// # Errors
     /// [`HostError::BadRequest`] for sizes and sample counts the driver does not have.
@@ -133,6 +145,7 @@ impl Stage {
         height: u32,
         samples: u32,
         format: ColorFormat,
+        buffers: Buffers,
     ) -> Result<(), HostError> {
         self.ensure_targets(width, height, samples, format)?;
         let gl = &self.gl;
@@ -149,7 +162,11 @@ impl Stage {
             .map(|x| x as f32);
         // SAFETY: objects of this stage; every uniform and buffer has the size its shader declares.
         unsafe {
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(targets.all));
+            let (framebuffer, draw_buffers) = match buffers {
+                Buffers::Color => (targets.plain, &ATTACHMENTS[..1]),
+                Buffers::All => (targets.all, &ATTACHMENTS[..]),
+            };
+            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer));
             gl.viewport(0, 0, width as i32, height as i32);
             gl.disable(glow::BLEND);
             gl.enable(glow::DEPTH_TEST);
@@ -158,8 +175,10 @@ impl Stage {
             gl.enable(glow::CULL_FACE);
             gl.cull_face(glow::FRONT); // the far side of each box: seen from inside it too
             gl.clear_buffer_f32_slice(glow::COLOR, 0, &setting.background.extend(1.0).to_array());
-            gl.clear_buffer_f32_slice(glow::COLOR, 1, &[0.0; 4]);
-            gl.clear_buffer_u32_slice(glow::COLOR, 2, &[0; 4]);
+            if buffers == Buffers::All {
+                gl.clear_buffer_f32_slice(glow::COLOR, 1, &[0.0; 4]);
+                gl.clear_buffer_u32_slice(glow::COLOR, 2, &[0; 4]);
+            }
             gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[1.0]);
             gl.use_program(Some(program.raw));
             gl.bind_vertex_array(Some(self.vertex_array));
@@ -185,8 +204,7 @@ impl Stage {
                 let ambient = if pass == 0 { setting.ambient } else { Vec3::ZERO };
                 gl.uniform_3_f32_slice(u.ambient.as_ref(), &ambient.to_array());
                 if pass == 1 {
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(targets.all));
-                    gl.draw_buffers(&[glow::COLOR_ATTACHMENT0]);
+                    gl.draw_buffers(&ATTACHMENTS[..1]);
                     gl.enable(glow::BLEND);
                     gl.blend_func(glow::ONE, glow::ONE);
                     gl.depth_func(glow::EQUAL);
@@ -196,7 +214,7 @@ impl Stage {
                 }
             }
             if passes > 1 {
-                gl.draw_buffers(&[glow::COLOR_ATTACHMENT0, glow::COLOR_ATTACHMENT1, glow::COLOR_ATTACHMENT2]);
+                gl.draw_buffers(draw_buffers);
                 gl.disable(glow::BLEND);
             }
             gl.disable(glow::CULL_FACE);

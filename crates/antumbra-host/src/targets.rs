@@ -21,6 +21,8 @@ pub(crate) struct Targets {
     pub(crate) depth: glow::Texture,
     /// Colour, normals, ids and depth.
     pub(crate) all: glow::Framebuffer,
+    /// Colour and depth: what a host without shadows draws into.
+    pub(crate) plain: glow::Framebuffer,
     /// Colour alone: where shadows go.
     pub(crate) color_only: glow::Framebuffer,
     /// One sample a pixel, to resolve into; only for multisampled targets.
@@ -107,6 +109,7 @@ impl Targets {
         };
         Ok(Self {
             all: framebuffer(target, &[color, normals, ids], Some(depth))?,
+            plain: framebuffer(target, &[color], Some(depth))?,
             color_only: framebuffer(target, &[color], None)?,
             color,
             normals,
@@ -126,7 +129,7 @@ impl Targets {
             for texture in [Some(self.color), Some(self.normals), Some(self.ids), Some(self.depth), texture] {
                 texture.into_iter().for_each(|t| gl.delete_texture(t));
             }
-            for framebuffer in [Some(self.all), Some(self.color_only), framebuffer] {
+            for framebuffer in [Some(self.all), Some(self.plain), Some(self.color_only), framebuffer] {
                 framebuffer.into_iter().for_each(|f| gl.delete_framebuffer(f));
             }
         }

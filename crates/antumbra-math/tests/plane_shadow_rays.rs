@@ -8,7 +8,8 @@ use antumbra_math::{Cone, Disc, Light, Plane, Rectangle, Shape, Sphere, Triangle
 use glam::{DQuat, DVec2, DVec3};
 use plane_shadow_support::{Random, blocked, grown, moved};
 
-/// Settings per shape, and points in each.
+/// Settings per shape, and points in each. The environment variable ANTUMBRA_TEST_FACTOR multiplies
+/// the settings.
 const SETTINGS: usize = 50_000;
 const POINTS: usize = 24;
 
@@ -127,7 +128,8 @@ fn check(shape: usize, seed: u64) {
     let mut random = Random(seed);
     let (mut asked, mut decided, mut dark) = (0, 0, 0);
     let mut kinds = std::collections::HashMap::new();
-    for _ in 0..SETTINGS {
+    let factor = std::env::var("ANTUMBRA_TEST_FACTOR").ok().and_then(|n| n.parse().ok()).unwrap_or(1);
+    for _ in 0..SETTINGS * factor {
         let (occluder, light, size) = setting(&mut random, shape);
         let turn = DQuat::from_axis_angle(random.direction(), random.within(0.0, 3.2));
         let turn = if random.choice(4) == 0 { DQuat::IDENTITY } else { turn };

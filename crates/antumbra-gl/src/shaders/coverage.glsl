@@ -10,14 +10,17 @@ struct Footprint {
 
 // `pixel_step`: xy the size of a pixel at distance one (perspective) or in metres (orthographic),
 // z 1 for perspective and 0 for orthographic.
+// Length and sign of the normal do not matter, except for the limit.
 Footprint screen_footprint(vec3 point, vec3 normal, vec3 pixel_step) {
-    vec3 sight = pixel_step.z > 0.5 ? point : vec3(0.0, 0.0, -1.0);
-    vec2 size = pixel_step.xy * (pixel_step.z > 0.5 ? -point.z : 1.0);
+    bool perspective = pixel_step.z > 0.5;
+    vec3 sight = perspective ? point : vec3(0.0, 0.0, -1.0);
+    float distance = perspective ? -point.z : 1.0;
+    vec2 size = pixel_step.xy * distance;
     // A surface seen edge-on has no finite footprint: limit the slope.
-    float limit = length(sight) * 1e-3;
+    float limit = distance * 1e-3;
     float facing = dot(sight, normal);
     facing = facing < 0.0 ? min(facing, -limit) : max(facing, limit);
-    vec3 slope = sight / facing;
+    vec3 slope = sight * (1.0 / facing);
     return Footprint(point, vec3(size.x, 0.0, 0.0) - slope * (normal.x * size.x),
                      vec3(0.0, size.y, 0.0) - slope * (normal.y * size.y));
 }
@@ -28,15 +31,11 @@ float half_plane_coverage(float value, float slope_x, float slope_y) {
     float minor = min(abs(slope_x), abs(slope_y));
     float reach = (major + minor) * 0.5;
     float distance = abs(value);
-    float small;
-    if (distance >= reach) {
-        small = 0.0;
-    } else if (distance >= (major - minor) * 0.5) {
-        float rest = reach - distance;
-        small = rest * rest / (2.0 * major * minor);
-    } else {
-        small = 0.5 - distance / major;
-    }
+    float rest = max(reach - distance, 0.0);
+    bool corner = distance >= (major - minor) * 0.5;
+    float above = corner ? rest * rest : major * 0.5 - distance;
+    float below = corner ? 2.0 * major * minor : major;
+    float small = rest > 0.0 ? above / below : 0.0;
     return value > 0.0 ? 1.0 - small : small;
 }
 

@@ -1,6 +1,7 @@
-// One triangle over the whole viewport.
+// The tiles of the viewport that shadows touch.
+
+layout(location = 0) in vec2 a_position_cs;
 
 void main() {
-    vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
-    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4(a_position_cs, 0.0, 1.0);
 }

@@ -15,17 +15,17 @@ float sphere_coverage(SphereBlocker b, Footprint footprint, bool solid) {
         return 1.0;
     }
     vec3 to_light = b.light - footprint.point * b.light_w;
-    float distance = length(to_light);
-    vec3 direction = to_light * (1.0 / distance);
+    float inverse_distance = inversesqrt(dot(to_light, to_light));
+    vec3 direction = to_light * inverse_distance;
     float along = dot(to_center, direction);
-    if (!(along > 0.0) || along * b.light_w >= distance) {
+    float share = b.light_w * along * inverse_distance;  // of the way to the light
+    if (!(along > 0.0 && share < 1.0)) {
         return 0.0;
     }
     // The distance of the line from the centre as a vector product: the discriminant cancels.
     float miss = length(cross(direction, to_center));
     vec3 nearest = to_center - direction * along;
-    float lever = 1.0 - b.light_w * along / distance;
-    vec3 gradient = nearest * (lever / max(miss, 1e-30));
+    vec3 gradient = nearest * ((1.0 - share) / max(miss, 1e-30));
     return pixel_edge(b.radius - miss, gradient, footprint).x;
 }
 

@@ -73,6 +73,7 @@ bool surface_point(out SurfacePoint s) {
 }
 
 #ifdef NORMALS
+// Of about unit length, to either side.
 vec3 raw_normal(SurfacePoint s) {
     return u_normal_to_view * (texelFetch(u_normals, s.texel, SURFACE_INDEX).xyz * u_normal_decode.x + u_normal_decode.y);
 }
@@ -91,7 +92,8 @@ vec3 straighter_step(SurfacePoint s, ivec2 step) {
 }
 
 vec3 raw_normal(SurfacePoint s) {
-    return cross(straighter_step(s, ivec2(1, 0)), straighter_step(s, ivec2(0, 1)));
+    vec3 n = cross(straighter_step(s, ivec2(1, 0)), straighter_step(s, ivec2(0, 1)));
+    return n * inversesqrt(max(dot(n, n), 1e-30));
 }
 #endif
 
@@ -104,7 +106,7 @@ vec3 surface_normal(SurfacePoint s) {
 }
 
 Footprint surface_footprint(SurfacePoint s) {
-    return screen_footprint(s.position, surface_normal(s), vec3(u_pixel_step.xy * u_pixel_step.w, u_pixel_step.z));
+    return screen_footprint(s.position, raw_normal(s), vec3(u_pixel_step.xy * u_pixel_step.w, u_pixel_step.z));
 }
 
 // The factor on the host's pixels, which are radiance^(1/gamma).

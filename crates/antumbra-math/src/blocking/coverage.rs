@@ -22,11 +22,12 @@ impl<V: Vector> Footprint<V> {
     }
 }
 
-/// The footprint of a pixel on the plane through `point` with unit normal `normal`, in view space
+/// The footprint of a pixel on the plane through `point` with normal `normal`, in view space
 /// (the eye at the origin, looking along -Z). `pixel` is the size of a pixel at distance one,
 /// 2/(width P₀₀) and 2/(height P₁₁), or in metres for an orthographic projection.
 ///
-/// A surface seen edge-on has no finite footprint: its slope is limited to 1000.
+/// Length and sign of the normal do not matter, except that a surface seen edge-on has no finite
+/// footprint: for a unit normal its slope is limited to about 1000.
 pub fn screen_footprint<V: Vector>(
     point: V,
     normal: V,
@@ -36,10 +37,11 @@ pub fn screen_footprint<V: Vector>(
     let (zero, one) = (V::Real::ZERO, V::Real::ONE);
     let forward = V::new(zero, zero, -one);
     let (sight, distance) = if perspective { (point, point.dot(forward)) } else { (forward, one) };
-    let limit = sight.length() * V::Real::from_f64(1e-3);
+    let limit = distance * V::Real::from_f64(1e-3);
     let facing = sight.dot(normal);
     let facing = if facing < zero { facing.min(-limit) } else { facing.max(limit) };
-    let on_plane = |step: V| step - sight * (normal.dot(step) / facing);
+    let slope = sight * (one / facing);
+    let on_plane = |step: V| step - slope * normal.dot(step);
     Footprint {
         point,
         dx: on_plane(V::new(distance * pixel.0, zero, zero)),
@@ -55,14 +57,14 @@ pub fn half_plane_coverage<R: Real>(value: R, slope_x: R, slope_y: R) -> R {
     let reach = (major + minor) * R::HALF;
     let distance = value.abs();
     // The smaller of the two parts: nothing, a triangle cut off a corner, or a trapezium.
-    let small = if distance >= reach {
-        R::ZERO
-    } else if distance >= (major - minor) * R::HALF {
-        let rest = reach - distance;
-        rest * rest / ((R::ONE + R::ONE) * major * minor)
+    let rest = (reach - distance).max(R::ZERO);
+    let corner = distance >= (major - minor) * R::HALF;
+    let (above, below) = if corner {
+        (rest * rest, (R::ONE + R::ONE) * major * minor)
     } else {
-        R::HALF - distance / major
+        (major * R::HALF - distance, major)
     };
+    let small = if rest > R::ZERO { above / below } else { R::ZERO };
     if value > R::ZERO { R::ONE - small } else { small }
 }
 

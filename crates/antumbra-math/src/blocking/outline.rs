@@ -48,23 +48,26 @@ impl Outline {
 
     /// Calls `near` with points whose convex hull is the near end under `light` (homogeneous), and
     /// whether the shadow goes on from the point, straight away from the light: the hull of the
-    /// points and of those rays holds the shadow. Calls nothing for [`Outline::Everywhere`].
-    pub fn near_end(&self, light: DVec4, mut near: impl FnMut(DVec3, bool)) {
+    /// points and of those rays holds the shadow; points inside a ball only if it is `hollow`, that
+    /// is, if they can be seen. Calls nothing for [`Outline::Everywhere`].
+    pub fn near_end(&self, light: DVec4, hollow: bool, mut near: impl FnMut(DVec3, bool)) {
         let mut extend = |p| near(p, true);
         match *self {
             Self::Everywhere => {}
             Self::Corners { corners, count } => corners[..count].iter().for_each(|&p| extend(p)),
             Self::Ring { center, axis, radius } => ring(center, axis, radius, &mut extend),
             Self::Ball { center, radius } => {
-                // Rays touch the ball on a circle nearer to the light than the centre; what is
-                // beside the ball and nearer still lies in the cylinder over that circle.
+                // Rays touch the ball on a circle nearer to the light than the centre; the rest of
+                // the ball that is nearer still lies in the cylinder over that circle.
                 let to_light = light.truncate() - center * light.w;
                 let distance = to_light.length();
                 let axis = to_light / distance;
                 let lift = if light.w == 0.0 { 0.0 } else { (radius * radius / distance).min(radius) };
                 let touching = (radius * radius - lift * lift).max(0.0).sqrt();
                 ring(center + axis * lift, axis, touching, &mut extend);
-                ring(center + axis * radius, axis, touching, &mut |p| near(p, false));
+                if hollow {
+                    ring(center + axis * radius, axis, touching, &mut |p| near(p, false));
+                }
             }
         }
     }

@@ -55,17 +55,19 @@ pub fn sphere_coverage<V: Vector>(b: &SphereBlocker<V>, footprint: &Footprint<V>
         return V::Real::ONE; // inside the ball
     }
     let to_light = b.light - footprint.point * b.light_w;
-    let distance = to_light.length();
-    let direction = to_light * (V::Real::ONE / distance);
+    let square = to_light.dot(to_light);
+    let inverse = V::Real::ONE / square.sqrt();
+    let direction = to_light * inverse;
     let along = to_center.dot(direction);
+    let share = b.light_w * along * inverse; // of the way to the light; 0 for a directional one
     // Behind the point, or beyond the light: outside the ball, the nearest point of the segment
     // is then an end of it, and both ends are outside.
-    if !(along > V::Real::ZERO) || along * b.light_w >= distance {
+    if !(along > V::Real::ZERO && share < V::Real::ONE) {
         return V::Real::ZERO;
     }
     let miss = direction.cross(to_center).length();
     let nearest = to_center - direction * along; // from the line to the centre
-    let lever = V::Real::ONE - b.light_w * along / distance; // the light end of the line stays put
+    let lever = V::Real::ONE - share; // the light end of the line stays put
     let gradient = nearest * (lever / miss.max(V::Real::from_f64(1e-30)));
     Edge::new(b.radius - miss, gradient, footprint).coverage
 }

@@ -45,7 +45,7 @@ impl Seen {
     fn new(setting: &Setting, cone: &Cone) -> Option<Self> {
         let axis = setting.direction(cone.axis).normalize_or_zero();
         let (radius, height) = (cone.radius, cone.height);
-        let center = setting.resting(setting.point(cone.base_center), radius + height);
+        let center = setting.point(cone.base_center);
         let rim = Ring::new(center, axis, radius);
         let apex = center + axis * height;
         let to_light = setting.to_light(apex);
@@ -94,15 +94,11 @@ impl Seen {
     /// plane and below the light.
     fn generator(&self, setting: &Setting, t: f64) -> Option<Edge> {
         let rim = self.rim_at(t);
-        let crossing = || {
-            let p = self.crossing(t);
-            p / p.z
-        };
         let snap = |p: DVec3| if p.z.abs() <= IDEAL { p.with_z(0.0) } else { p };
         let (from, to) = match (rim.z >= 0.0, self.apex.z >= 0.0) {
             (true, true) => (setting.project(rim), setting.project(self.apex)),
-            (true, false) => (setting.project(rim), crossing()),
-            (false, true) => (crossing(), setting.project(self.apex)),
+            (true, false) => (setting.project(rim), self.crossing(t)),
+            (false, true) => (self.crossing(t), setting.project(self.apex)),
             (false, false) => return None,
         };
         let (from, to) = (snap(from), snap(to));
@@ -115,11 +111,9 @@ impl Seen {
         }
     }
 
-    /// The shadow where the light, which has a position, is inside the cone or touches it.
-    fn touched(&self, setting: &Setting) -> Option<PlaneShadow> {
+    /// The shadow where the light, which has a position, is inside the cone or within `near` of it.
+    fn touched(&self, setting: &Setting, near: f64) -> Option<PlaneShadow> {
         let [f0, fa, fb] = self.side;
-        let size = self.radius + self.height;
-        let near = TOUCHING * size;
         let from_apex = setting.from_light(self.apex);
         if from_apex.length() <= near {
             // The solid angle of the cone itself: all that the base hides, the plane or not.
@@ -152,14 +146,15 @@ pub(super) fn cone(setting: &Setting, cone: &Cone) -> PlaneShadow {
     if cone.height == 0.0 {
         return disc(setting, cone.base_center, cone.axis, cone.radius);
     }
+    let slack = setting.slack(setting.point(cone.base_center), cone.radius + cone.height);
+    let setting = &setting.lowered(slack);
     let Some(seen) = Seen::new(setting, cone) else { return PlaneShadow::nothing() };
     if setting.light.w > 0.0
-        && let Some(shadow) = seen.touched(setting)
+        && let Some(shadow) = seen.touched(setting, TOUCHING * (cone.radius + cone.height) + slack)
     {
         return shadow;
     }
     let (rim, apex) = (&seen.rim, seen.apex);
-    let slack = setting.slack(apex, seen.radius + seen.height);
     if apex.z.max(rim.top()) <= 2.0 * slack {
         return PlaneShadow::nothing();
     }
@@ -171,11 +166,16 @@ pub(super) fn cone(setting: &Setting, cone: &Cone) -> PlaneShadow {
     let rim_above = rim.above();
     let rim_curve = project(setting, rim);
     let rim_angles = silhouette.and(&rim_above);
-    let rim_arcs = rim_curve.chains(&rim_angles.and(&rim_curve.in_front()));
+    let rim_arcs =
+        rim_curve.chains_between(&rim_angles.and(&rim_curve.in_front()), |t| setting.project(seen.rim_at(t)));
 
     // The lines in which the light grazes the side.
     let lines = lit_side.ends().into_iter().flatten();
-    let line = |t| seen.generator(setting, t).map(|line| vec![line]);
+    let apex_in_plane = apex.z.abs() <= 2.0 * slack;
+    let line = |t: f64| {
+        let below = apex_in_plane && seen.rim_at(t).z < 0.0;
+        if below { None } else { seen.generator(setting, t).map(|line| vec![line]) }
+    };
     let lines: Vec<Vec<Edge>> = lines.filter_map(line).collect();
 
     // The section of the side.
@@ -183,7 +183,7 @@ pub(super) fn cone(setting: &Setting, cone: &Cone) -> PlaneShadow {
     let mut section_curve = None;
     let below = if apex.z > 0.0 { rim_above.complement() } else { rim_above.clone() };
     let section_angles = lit_side.and(&below);
-    if apex.z.abs() <= 2.0 * slack {
+    if apex_in_plane {
         // The section is a triangle: every line from rim to apex meets the plane in the apex, but for
         // the two that lie in it.
         let corner = apex.with_z(1.0);

@@ -125,7 +125,8 @@ impl Curve {
 
     /// The same with the arcs' ends as `end` computes them.
     pub(super) fn chains_between(&self, angles: &Angles, end: impl Fn(f64) -> DVec3) -> Vec<Vec<Edge>> {
-        let noise = IDEAL * (self.c.z.abs() + self.a.z.abs());
+        let at_infinity = if self.kind() == ShadowKind::Parabola { 2.0 * PARABOLIC } else { IDEAL };
+        let noise = IDEAL + at_infinity * (self.c.z.abs() + self.a.z.abs());
         let snap = |p: DVec3| if p.z <= noise { p.with_z(0.0) } else { p };
         let arc = |(from, to): (f64, f64)| {
             let (half, middle) = (0.5 * (to - from), 0.5 * (to + from));

@@ -24,12 +24,14 @@ pub(super) fn project(setting: &Setting, ring: &Ring) -> Curve {
 
 /// The shadow of a disc. The normal need not be of unit length.
 pub(super) fn disc(setting: &Setting, center: DVec3, normal: DVec3, radius: f64) -> PlaneShadow {
+    let slack = setting.slack(setting.point(center), radius);
+    let setting = &setting.lowered(slack);
     let (center, normal) = (setting.point(center), setting.direction(normal).normalize_or_zero());
     if radius.is_nan() || radius <= 0.0 || normal == DVec3::ZERO {
         return PlaneShadow::nothing();
     }
-    let slack = setting.slack(center, radius);
-    let center = setting.resting(center, radius);
+    let to_light = setting.to_light(center);
+    let is_edge_on = normal.dot(to_light).abs() <= EDGE_ON * to_light.length() + slack * setting.light.w;
     let ring = Ring::new(center, normal, radius);
     if ring.top() <= 2.0 * slack {
         return PlaneShadow::nothing();
@@ -37,8 +39,7 @@ pub(super) fn disc(setting: &Setting, center: DVec3, normal: DVec3, radius: f64)
     let curve = project(setting, &ring);
     let above = ring.above();
     let chains = curve.chains(&above.and(&curve.in_front()));
-    let to_light = setting.to_light(center);
-    if normal.dot(to_light).abs() <= EDGE_ON * to_light.length() {
+    if is_edge_on {
         let along = DVec2::new(normal.y, -normal.x).normalize_or_zero();
         return match Outline::from_chains(&chains) {
             Some(outline) => {

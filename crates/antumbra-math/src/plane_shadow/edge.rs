@@ -7,11 +7,6 @@
 
 use glam::{DVec2, DVec3};
 
-/// Edges whose ends are seen from the middle of the shadow under an angle below this one bound no
-/// area that matters, and their direction is rounding: they do not decide what is inside. It trades
-/// the noise of a direction (1e-16 over this) against the corner that is cut or gained (this).
-const SHORT: f64 = 1e-9;
-
 /// Directions this close to a coordinate axis count as parallel to it, where a bound would otherwise
 /// jump between a number and infinity.
 const PARALLEL: f64 = 1e-12;
@@ -78,6 +73,15 @@ impl Edge {
         match *self {
             Self::Line(_) => false,
             Self::Arc([a, b, c]) => b.dot(c.cross(a)).abs() > PARALLEL * a.length() * b.length() * c.length(),
+        }
+    }
+
+    /// Twice the area of the control triangle times the weights: positive for an arc that turns left;
+    /// 0 for a line.
+    pub(super) fn turn(&self) -> f64 {
+        match *self {
+            Self::Line(_) => 0.0,
+            Self::Arc([a, b, c]) => a.dot(b.cross(c)),
         }
     }
 
@@ -165,15 +169,20 @@ impl Edge {
         let Self::Arc([a, b, c]) = *self else { return 0.0 };
         let ends = a.z * c.z;
         let omega = b.z / ends.sqrt();
-        0.5 * a.dot(b.cross(c)) * segment_ratio(omega) / (ends * ends.sqrt())
+        0.5 * self.turn() * segment_ratio(omega) / (ends * ends.sqrt())
     }
 
     /// Whether a point is on the inner side of the edge, which runs counterclockwise round a convex
-    /// region; `p` = (x, y, 1). Every edge says yes if and only if the point is in the region.
-    pub(super) fn admits(&self, p: DVec3) -> bool {
+    /// region; `p` = (x, y, 1). Every edge says yes if and only if the point is in the region. Edges
+    /// of which both ends are seen from the origin within `short` radians always say yes.
+    pub(super) fn admits(&self, p: DVec3, short: f64) -> bool {
         let (a, b) = (self.start(), self.end());
         let chord = a.cross(b);
-        if chord.length() <= SHORT * a.length() * b.length() || chord.dot(p) >= 0.0 {
+        // A line at infinity leaves nothing out.
+        if a.z <= 0.0 && b.z <= 0.0 {
+            return true;
+        }
+        if chord.length() <= short * a.length() * b.length() || chord.dot(p) >= 0.0 {
             return true;
         }
         match *self {

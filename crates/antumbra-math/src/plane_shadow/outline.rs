@@ -4,10 +4,17 @@
 //! and the projection from the light keeps it so. Its boundary is found in chains, in any
 //! order; since it is convex, the chains' directions from an inner point put them in order.
 
+use core::f64::consts::TAU;
+
 use glam::{DVec2, DVec3};
 
 use super::edge::Edge;
 use super::frame::Bounds;
+
+/// Edges whose ends are seen from the inner point within this angle do not decide what is inside. It
+/// trades what a right angle in place of such an edge adds to the shadow, this times its size, against
+/// what the edge's direction, known to 1e-16 over this, takes away.
+const SHORT: f64 = 1e-9;
 
 /// Two ends of neighbouring pieces closer than this, seen from the inner point, are one corner.
 const SAME: f64 = 1e-15;
@@ -31,22 +38,27 @@ impl Outline {
     pub(super) fn from_chains(chains: &[Vec<Edge>]) -> Option<Self> {
         let lengths = chains.iter().map(Vec::len);
         let mut outline = Self { edges: chains.concat(), origin: DVec2::ZERO, scale: 1.0 }.recentered()?;
+        let is_single = chains.len() == 1;
         let mut rest = outline.edges.as_slice();
         let mut chains = Vec::with_capacity(chains.len());
         for length in lengths.filter(|&length| length > 0) {
             let (chain, after) = rest.split_at(length);
             rest = after;
-            // The angle that the chain sweeps, seen from inside: the single edge may be too short or
-            // too far away to tell which way it runs.
+            // The angle that the chain sweeps, seen from inside: a single edge may be too short or too
+            // far away to tell which way the chain runs.
             let points = chain.iter().flat_map(|edge| [edge.start(), edge.at(0.5), edge.end()]);
             let points: Vec<DVec2> = points.map(DVec3::truncate).collect();
             let sweep: f64 = points.windows(2).map(|p| p[0].perp_dot(p[1]).atan2(p[0].dot(p[1]))).sum();
-            let middle = points[points.len() / 2];
+            let middle = points[0].to_angle() + 0.5 * sweep;
+            // If there is no other chain the shadow may be so thin that the inner point is on its edge
+            // by rounding. Then the arcs' own bends tell.
+            let bend: f64 = chain.iter().filter(|edge| edge.is_curved()).map(Edge::turn).sum();
+            let turns_right = if is_single && bend != 0.0 { bend < 0.0 } else { sweep < 0.0 };
             let mut chain = chain.to_vec();
-            if sweep < 0.0 {
+            if turns_right {
                 chain = chain.iter().rev().map(Edge::reversed).collect();
             }
-            chains.push((middle.y.atan2(middle.x), chain));
+            chains.push((middle.rem_euclid(TAU), chain));
         }
         chains.sort_by(|a, b| a.0.total_cmp(&b.0));
         outline.edges = close(chains.into_iter().flat_map(|(_, chain)| chain), None);
@@ -111,7 +123,11 @@ impl Outline {
     /// Whether a point lies inside.
     pub(super) fn contains(&self, point: DVec2) -> bool {
         let p = ((point - self.origin) / self.scale).extend(1.0);
-        p.is_finite() && self.edges.iter().all(|edge| edge.admits(p))
+        // Directions of edges this short, less than a thousand times the rounding of the corners, are
+        // unknown, and next to nothing lies outside them that does not lie outside others.
+        let rounding = f64::EPSILON * (1.0 + self.origin.length() / self.scale);
+        let short = SHORT.max(1e3 * rounding).min(1e-3);
+        p.is_finite() && self.edges.iter().all(|edge| edge.admits(p, short))
     }
 
     /// Whether a part of the boundary bends.

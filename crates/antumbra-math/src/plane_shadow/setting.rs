@@ -87,9 +87,13 @@ impl Setting {
         RESTING * (at.length() + size)
     }
 
-    /// `p`, a point of something of this size, so much higher that what is meant to stand on the plane
+    /// The same light over the plane `by` farther down, so that what is meant to stand on the plane
     /// is above it, not cut by it.
-    pub(super) fn resting(&self, p: DVec3, size: f64) -> DVec3 {
-        p + DVec3::Z * self.slack(p, size)
+    pub(super) fn lowered(&self, by: f64) -> Self {
+        let mut lowered = *self;
+        lowered.frame.origin -= self.frame.normal * (self.side * by);
+        let height = 1.0 + by * self.light.w;
+        lowered.light = self.light.with_z(height) / height;
+        lowered
     }
 }

@@ -1,0 +1,101 @@
+//! Contexts, and what the driver says against a test's calls.
+
+use antumbra_host::{Api, HeadlessContext};
+use glow::HasContext;
+use std::sync::Arc;
+
+/// A context of one kind, with the driver's complaints collected.
+pub(crate) struct Gl {
+    pub(crate) api: Api,
+    pub(crate) gl: Arc<glow::Context>,
+    _context: HeadlessContext,
+}
+
+/// Runs a test in OpenGL 3.3 and in OpenGL ES 3.0; afterwards the driver must have had nothing to
+/// complain about. Where there is no OpenGL the test says so and is skipped; with
+/// `ANTUMBRA_REQUIRE_GL` that is a failure.
+pub(crate) fn in_each_api(test: impl Fn(&Gl)) {
+    for api in [Api::Gl33, Api::Gles30] {
+        if let Some(gl) = Gl::new(api) {
+            test(&gl);
+            gl.assert_no_complaint("the test's end");
+        }
+    }
+}
+
+impl Gl {
+    fn new(api: Api) -> Option<Self> {
+        let context = match HeadlessContext::new(api) {
+            Ok(context) => context,
+            Err(e) => {
+                assert!(std::env::var_os("ANTUMBRA_REQUIRE_GL").is_none(), "{api:?}: {e}");
+                eprintln!("SKIPPED on {api:?}: {e}");
+                return None;
+            }
+        };
+        let gl = context.gl().clone();
+        if gl.supports_debug() {
+            // SAFETY: switches of contexts with KHR_debug.
+            unsafe {
+                gl.enable(glow::DEBUG_OUTPUT);
+                gl.enable(glow::DEBUG_OUTPUT_SYNCHRONOUS);
+                let any = glow::DONT_CARE;
+                gl.debug_message_control(any, any, any, &[], false);
+                for kind in [glow::DEBUG_TYPE_ERROR, glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR] {
+                    gl.debug_message_control(any, kind, any, &[], true);
+                }
+            }
+        }
+        Some(Self { api, gl, _context: context })
+    }
+
+    pub(crate) fn is_desktop(&self) -> bool {
+        self.api == Api::Gl33
+    }
+
+    /// The version, as (major, minor).
+    pub(crate) fn version(&self) -> (u32, u32) {
+        (self.gl.version().major, self.gl.version().minor)
+    }
+
+    /// Everything the driver has reported since the last time: error flags, and debug messages
+    /// about errors and undefined behaviour.
+    pub(crate) fn complaints(&self) -> Vec<String> {
+        let mut complaints = Vec::new();
+        // SAFETY: asks for flags and messages.
+        unsafe {
+            loop {
+                match self.gl.get_error() {
+                    glow::NO_ERROR => break,
+                    error => complaints.push(format!("error 0x{error:x}")),
+                }
+            }
+            while self.gl.supports_debug() {
+                let messages = self.gl.get_debug_message_log(1);
+                if messages.is_empty() {
+                    break;
+                }
+                complaints.extend(messages.iter().map(|message| format!("{message:?}")));
+            }
+        }
+        complaints
+    }
+
+    pub(crate) fn assert_no_complaint(&self, after: &str) {
+        let complaints = self.complaints();
+        assert!(complaints.is_empty(), "{:?}, after {after}: {complaints:?}", self.api);
+    }
+}
+
+/// The collecting itself: a wrong call is noticed, by flag and, where there are messages, in words.
+#[test]
+fn a_wrong_call_is_a_complaint() {
+    in_each_api(|gl| {
+        // SAFETY: a call that OpenGL answers with an error.
+        unsafe { gl.gl.enable(0xdead) };
+        let complaints = gl.complaints();
+        let expected = if gl.gl.supports_debug() { 2 } else { 1 };
+        assert_eq!(complaints.len(), expected, "{complaints:?}");
+        assert!(gl.complaints().is_empty(), "each is reported once");
+    });
+}

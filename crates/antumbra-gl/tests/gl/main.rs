@@ -1,0 +1,23 @@
+//! The renderer against real contexts, OpenGL and OpenGL ES: what it leaves behind, what it
+//! allocates, and what it draws for hosts that differ from each other in every way they can.
+//!
+//! One program, so that it links once. Surfaces are traced on the CPU and uploaded: every
+//! projection, depth format and viewport is then one line, and the expected shadows come from the
+//! ray tracer, which shares no code with the renderer.
+
+mod context;
+mod shot;
+mod world;
+
+mod bad_frames;
+mod cameras;
+mod depth_only;
+mod leaks;
+mod lights;
+mod occluders;
+mod samples;
+mod state;
+mod state_kinds;
+mod steady;
+mod twins;
+mod viewports;
