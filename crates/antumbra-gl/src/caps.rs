@@ -21,7 +21,9 @@ pub enum Tier {
 pub struct Caps {
     /// The tier, which decides everything but sizes.
     pub tier: Tier,
-    /// Whether blend functions are set per draw buffer (OpenGL 4.0).
+    /// Whether switches and colour masks are set per draw buffer (OpenGL 3.0, OpenGL ES 3.2).
+    pub(crate) indexed_switches: bool,
+    /// Whether blend functions are set per draw buffer (OpenGL 4.0, OpenGL ES 3.2).
     pub(crate) indexed_blend: bool,
     /// Colour attachments a framebuffer can draw to.
     pub(crate) draw_buffers: u32,
@@ -59,7 +61,8 @@ impl Caps {
         let limit = |name| unsafe { gl.get_parameter_i32(name) }.max(1) as u32;
         Ok(Self {
             tier,
-            indexed_blend: desktop && at_least(4, 0),
+            indexed_switches: desktop || at_least(3, 2),
+            indexed_blend: at_least(if desktop { 4 } else { 3 }, if desktop { 0 } else { 2 }),
             draw_buffers: limit(glow::MAX_DRAW_BUFFERS).min(16),
             max_samples: if tier >= Tier::Core33Samples {
                 limit(glow::MAX_COLOR_TEXTURE_SAMPLES).min(limit(glow::MAX_DEPTH_TEXTURE_SAMPLES))

@@ -58,8 +58,10 @@ pub struct Surface {
     pub normals: Option<Normals>,
     /// `R32UI`: the [`Occluder::id`] of what is seen, 0 for anything else, plus
     /// [`NO_SHADOW`] where no shadow may fall. With ids a surface never shadows itself, whatever
-    /// its shape in the host's mesh. Without, the shapes decide by geometry: right for hosts that
-    /// draw what they describe.
+    /// its shape in the host's mesh. Without, geometry decides: what is seen inside a ball is taken
+    /// for the host's mesh of that ball, and what lies in a flat shape's plane to the precision of
+    /// the depth buffer for that shape. Right for hosts that draw what they describe; the shadows of
+    /// shapes that are not drawn need ids where they reach into what is.
     pub ids: Option<glow::Texture>,
 }
 

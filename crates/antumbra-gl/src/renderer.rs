@@ -111,6 +111,12 @@ impl Renderer {
                 needs: "OpenGL 4.0 or GL_ARB_sample_shading; resolve colour and depth first",
             });
         }
+        if surface.samples > self.caps.max_samples {
+            return Err(Error::Unsupported {
+                what: "a surface of this many samples",
+                needs: "a driver that has textures of as many",
+            });
+        }
         let variant = Variant::of(surface);
         let programs = &mut self.programs[variant.index()];
         while programs.len() < PROGRAMS.len() {

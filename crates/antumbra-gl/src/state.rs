@@ -216,9 +216,9 @@ unsafe fn set(gl: &glow::Context, switch: u32, on: bool) {
 /// # Safety
 /// `caps` are the context's.
 unsafe fn set_color_mask(gl: &glow::Context, caps: Caps, [r, g, b, a]: [bool; 4]) {
-    // SAFETY: indexed masks exist from OpenGL 3.0 on.
+    // SAFETY: the indexed mask exists.
     unsafe {
-        if caps.is_desktop() {
+        if caps.indexed_switches {
             gl.color_mask_draw_buffer(0, r, g, b, a);
         } else {
             gl.color_mask(r, g, b, a);
@@ -232,9 +232,9 @@ unsafe fn set_color_mask(gl: &glow::Context, caps: Caps, [r, g, b, a]: [bool; 4]
 /// `caps` are the context's, the values are OpenGL's.
 unsafe fn set_blending(gl: &glow::Context, caps: Caps, on: bool, function: [u32; 4], equation: [u32; 2]) {
     let [src_rgb, dst_rgb, src_alpha, dst_alpha] = function;
-    // SAFETY: indexed switches exist from OpenGL 3.0 on, indexed functions from 4.0.
+    // SAFETY: the indexed switches and functions exist.
     unsafe {
-        match (caps.is_desktop(), on) {
+        match (caps.indexed_switches, on) {
             (true, true) => gl.enable_draw_buffer(glow::BLEND, 0),
             (true, false) => gl.disable_draw_buffer(glow::BLEND, 0),
             (false, _) => set(gl, glow::BLEND, on),

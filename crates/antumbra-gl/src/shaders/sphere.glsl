@@ -7,12 +7,14 @@ struct SphereBlocker {
     float light_w;  // 1 for a position, 0 for a direction
 };
 
-// `solid`: points inside the ball are dark. Without object ids such a point is the host's
-// tessellation of this very ball, and its side of the ball decides.
-float sphere_coverage(SphereBlocker b, Footprint footprint, bool solid) {
+// `solid`: points inside the ball are dark. Without object ids a visible point inside the ball, or
+// nearer to it than `tolerance`, is taken for the host's mesh of this very ball, which does not
+// shadow itself.
+float sphere_coverage(SphereBlocker b, Footprint footprint, bool solid, float tolerance) {
     vec3 to_center = b.center - footprint.point;
-    if (solid && dot(to_center, to_center) < b.radius * b.radius) {
-        return 1.0;
+    float reach = b.radius + tolerance;
+    if (dot(to_center, to_center) < reach * reach) {
+        return solid ? 1.0 : 0.0;
     }
     vec3 to_light = b.light - footprint.point * b.light_w;
     float inverse_distance = inversesqrt(dot(to_light, to_light));
@@ -31,5 +33,5 @@ float sphere_coverage(SphereBlocker b, Footprint footprint, bool solid) {
 
 float blocker_coverage(Footprint footprint, SurfacePoint surface) {
     SphereBlocker b = SphereBlocker(BLOCKER_DATA[0].xyz, BLOCKER_DATA[0].w, BLOCKER_DATA[1].xyz, BLOCKER_DATA[1].w);
-    return sphere_coverage(b, footprint, surface.has_id);
+    return sphere_coverage(b, footprint, surface.has_id, surface.tolerance);
 }

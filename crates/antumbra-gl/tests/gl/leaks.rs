@@ -1,1 +1,211 @@
-//! x
+//! OpenGL objects: deleted with the renderer, replaced when sizes change, not made in between.
+
+use crate::context::{Gl, in_each_api};
+use crate::lights::many_lights;
+use crate::shot::{Canvas, Shot, VIEWPORT};
+use antumbra_gl::{Encoding, Frame, Renderer, Surface, Tier};
+use glow::HasContext;
+use std::num::NonZeroU32;
+
+/// Names that are looked through; drivers hand out the smallest free ones.
+const NAMES: u32 = 3000;
+
+/// The same for vertex arrays, which glow cannot ask for: every miss is an error of OpenGL.
+const VERTEX_ARRAY_NAMES: u32 = 400;
+
+/// Whether binding it works.
+fn is_vertex_array(gl: &glow::Context, name: NonZeroU32) -> bool {
+    // SAFETY: names that do not exist are an error and bind nothing; the binding is put back.
+    unsafe {
+        let was = gl.get_parameter_vertex_array(glow::VERTEX_ARRAY_BINDING);
+        let talks = gl.supports_debug() && gl.is_enabled(glow::DEBUG_OUTPUT);
+        if talks {
+            gl.disable(glow::DEBUG_OUTPUT);
+        }
+        gl.bind_vertex_array(Some(glow::NativeVertexArray(name)));
+        let found = gl.get_error() == glow::NO_ERROR;
+        gl.bind_vertex_array(was);
+        if talks {
+            gl.enable(glow::DEBUG_OUTPUT);
+        }
+        found
+    }
+}
+
+/// Live objects by kind: textures, buffers, framebuffers, vertex arrays, programs, shaders,
+/// renderbuffers.
+pub(crate) fn live(gl: &glow::Context) -> [usize; 7] {
+    let mut count = [0; 7];
+    for name in (1..=NAMES).filter_map(NonZeroU32::new) {
+        // SAFETY: these accept any name.
+        let is = unsafe {
+            [
+                gl.is_texture(glow::NativeTexture(name)),
+                gl.is_buffer(glow::NativeBuffer(name)),
+                gl.is_framebuffer(glow::NativeFramebuffer(name)),
+                name.get() <= VERTEX_ARRAY_NAMES && is_vertex_array(gl, name),
+                gl.is_program(glow::NativeProgram(name)),
+                gl.is_shader(glow::NativeShader(name)),
+                gl.is_renderbuffer(glow::NativeRenderbuffer(name)),
+            ]
+        };
+        count.iter_mut().zip(is).for_each(|(count, is)| *count += usize::from(is));
+    }
+    count
+}
+
+/// The size of every live texture and buffer, in texels and bytes; textures' needs OpenGL.
+fn sizes(gl: &Gl) -> Vec<(u32, i32, i32)> {
+    let context = &gl.gl;
+    let mut sizes = Vec::new();
+    for name in (1..=NAMES).filter_map(NonZeroU32::new) {
+        // SAFETY: binds what exists, asks for its size, and unbinds it.
+        unsafe {
+            let buffer = glow::NativeBuffer(name);
+            if context.is_buffer(buffer) {
+                context.bind_buffer(glow::COPY_READ_BUFFER, Some(buffer));
+                let size = context.get_buffer_parameter_i32(glow::COPY_READ_BUFFER, glow::BUFFER_SIZE);
+                sizes.push((name.get(), size, 0));
+                context.bind_buffer(glow::COPY_READ_BUFFER, None);
+            }
+            let texture = glow::NativeTexture(name);
+            if gl.is_desktop() && context.is_texture(texture) {
+                context.bind_texture(glow::TEXTURE_2D, Some(texture));
+                let size = |side| context.get_tex_level_parameter_i32(glow::TEXTURE_2D, 0, side);
+                sizes.push((name.get(), size(glow::TEXTURE_WIDTH), size(glow::TEXTURE_HEIGHT)));
+                context.bind_texture(glow::TEXTURE_2D, None);
+            }
+        }
+    }
+    sizes
+}
+
+/// The looking itself: what is made is seen.
+#[test]
+fn live_objects_are_counted() {
+    in_each_api(|gl| {
+        let before = live(&gl.gl);
+        // SAFETY: made and deleted.
+        unsafe {
+            let program = gl.gl.create_program().expect("a program");
+            let canvas = Canvas::white(gl, [2, 2], 2);
+            let vertex_array = gl.gl.create_vertex_array().expect("a vertex array");
+            let made: Vec<_> = live(&gl.gl).iter().zip(before).map(|(now, before)| now - before).collect();
+            assert_eq!(made, [2, 0, 1, 1, 1, 0, 0], "two textures, a framebuffer, a vertex array, a program");
+            gl.gl.delete_vertex_array(vertex_array);
+            gl.gl.delete_program(program);
+            drop(canvas);
+        }
+        assert_eq!(live(&gl.gl), before, "all are gone");
+    });
+}
+
+#[test]
+fn a_renderer_takes_its_objects_with_it() {
+    in_each_api(|gl| {
+        let (few, many) = (many_lights(3), many_lights(9));
+        let (shot, many_shot) = (Shot::new(gl, &few), Shot::new(gl, &many));
+        let canvas = Canvas::new(gl);
+        let before = live(&gl.gl);
+        for round in 0..100 {
+            let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+            // Some are dropped without a frame, some after a kind of frame each.
+            let float = renderer.caps().tier != Tier::Es3;
+            let frame = if round % 2 == 0 && float { many_shot.frame() } else { shot.frame() };
+            match round % 10 {
+                0 => {}
+                1 => renderer.masks(&frame, |_| {}).expect("the frame is right"),
+                2 => {
+                    let surface = Surface::from_depth(shot.depth);
+                    renderer.overlay(&Frame { surface, ..frame }, Encoding::Linear).expect("right");
+                }
+                3..6 => {
+                    let samples = Surface { samples: 4096, ..frame.surface };
+                    renderer.overlay(&Frame { surface: samples, ..frame }, Encoding::Linear).expect_err("samples");
+                    let attached = Surface { depth: canvas.colors[0], ..frame.surface };
+                    renderer.overlay(&Frame { surface: attached, ..frame }, Encoding::Linear).expect_err("attached");
+                }
+                _ => renderer.overlay(&frame, Encoding::Linear).expect("the frame is right"),
+            }
+        }
+        gl.assert_no_complaint("a hundred renderers");
+        assert_eq!(live(&gl.gl), before, "textures, buffers, framebuffers, vertex arrays, programs, shaders");
+    });
+}
+
+#[test]
+fn another_size_replaces_the_old_targets() {
+    in_each_api(|gl| {
+        let world = many_lights(9);
+        let shot = Shot::new(gl, &world);
+        let _canvas = Canvas::new(gl);
+        let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+        let float = renderer.caps().tier != Tier::Es3;
+        let mut draw = |width: i32, height: i32| {
+            let frame = Frame { viewport: [0, 0, width, height], ..shot.frame() };
+            if float {
+                renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
+            }
+            renderer.masks(&frame, |_| {}).expect("the frame is right");
+        };
+        draw(VIEWPORT[2], VIEWPORT[3]);
+        let before = live(&gl.gl);
+        for round in 0..200 {
+            draw(1 + (round * 37) % VIEWPORT[2], 1 + (round * 23) % VIEWPORT[3]);
+        }
+        assert_eq!(live(&gl.gl), before, "as many as after the first frame");
+        gl.assert_no_complaint("resizing");
+    });
+}
+
+/// A driver that refuses a size is reported, and what it did make is deleted.
+#[test]
+fn a_failed_frame_leaves_no_object_and_the_next_one_works() {
+    in_each_api(|gl| {
+        let world = many_lights(3);
+        let shot = Shot::new(gl, &world);
+        let canvas = Canvas::new(gl);
+        let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+        renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+        let before = live(&gl.gl);
+        let attached = Surface { ids: Some(canvas.colors[0]), ..shot.frame().surface };
+        for _ in 0..50 {
+            let bad = Frame { surface: attached, ..shot.frame() };
+            renderer.overlay(&bad, Encoding::Linear).expect_err("attached");
+            let bad = Frame { viewport: [0, 0, 0, 10], ..shot.frame() };
+            renderer.overlay(&bad, Encoding::Linear).expect_err("no viewport");
+            renderer.overlay(&shot.frame(), Encoding::Linear).expect("the next frame is right");
+        }
+        assert_eq!(live(&gl.gl), before, "as many as after the first frame");
+        gl.assert_no_complaint("failing frames");
+    });
+}
+
+/// Objects and their sizes are the same for 9, 64 and 512 lights.
+#[test]
+fn memory_does_not_grow_with_the_lights() {
+    in_each_api(|gl| {
+        let mut seen: Option<(usize, [usize; 7], Vec<(u32, i32, i32)>)> = None;
+        for count in [9, 64, 512] {
+            let world = many_lights(count);
+            let shot = Shot::new(gl, &world);
+            let canvas = Canvas::new(gl);
+            let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+            if renderer.caps().tier != Tier::Es3 {
+                renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+            }
+            renderer.masks(&shot.frame(), |_| {}).expect("the frame is right");
+            let now = (live(&gl.gl), sizes(gl));
+            if let Some((fewer, live, sizes)) = &seen {
+                assert_eq!(now.0, *live, "objects for {count} lights and for {fewer}");
+                let bytes = |sizes: &[(u32, i32, i32)]| sizes.iter().map(|s| i64::from(s.1) * i64::from(s.2.max(1))).sum::<i64>();
+                // Buffers double: a batch of unlucky lights may need the next size.
+                let (now, then) = (bytes(&now.1), bytes(sizes));
+                assert!(now <= then + then / 10, "{now} for {count} lights, {then} for {fewer}");
+            } else {
+                seen = Some((count, now.0, now.1));
+            }
+            drop(canvas);
+        }
+    });
+}

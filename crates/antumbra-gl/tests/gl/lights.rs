@@ -1,7 +1,7 @@
 //! Any number of lights, and how the host's pixels encode them.
 
 use crate::context::{Gl, in_each_api};
-use crate::shot::{Canvas, Shot, VIEWPORT};
+use crate::shot::{Canvas, Shot};
 use crate::world::{ONE_OF_EACH, World};
 use antumbra_gl::{BATCH_LIGHTS, Encoding, Frame, Light, Renderer, Tier};
 use antumbra_math::Plane;
@@ -49,10 +49,10 @@ fn the_overlay_is_what_arrives_over_what_is_sent() {
     in_each_api(|gl| {
         let world = World::one_of_each();
         let shot = Shot::new(gl, &world);
-        let truth = world.truth(&shot.seen, VIEWPORT[2]);
+        let truth = world.truth(&shot);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         let picture = overlay(gl, &mut renderer, &shot.frame(), Encoding::Linear);
-        truth.assert_overlay(&picture, STEP, 0.0);
+        truth.assert_overlay(&picture, STEP);
         assert!(picture.iter().all(|texel| texel[3] == 255), "alpha stays");
     });
 }
@@ -62,12 +62,12 @@ fn masks_are_the_visibility_of_each_light() {
     in_each_api(|gl| {
         let world = World::one_of_each();
         let shot = Shot::new(gl, &world);
-        let truth = world.truth(&shot.seen, VIEWPORT[2]);
+        let truth = world.truth(&shot);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         let masks = shot.masks(&mut renderer, &shot.frame());
         assert_eq!(masks.len(), 3, "one a light");
         for (light, mask) in masks.iter().enumerate() {
-            truth.assert_mask(light, mask, 0.0);
+            truth.assert_mask(light, mask);
         }
     });
 }
@@ -100,14 +100,14 @@ fn more_lights_than_a_batch_make_one_overlay() {
     in_each_api(|gl| {
         let world = many_lights(20);
         let shot = Shot::new(gl, &world);
-        let truth = world.truth(&shot.seen, VIEWPORT[2]);
+        let truth = world.truth(&shot);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         if renderer.caps().tier == Tier::Es3 {
             eprintln!("SKIPPED: no floating-point targets");
             return;
         }
         let picture = overlay(gl, &mut renderer, &shot.frame(), Encoding::Linear);
-        truth.assert_overlay(&picture, STEP, 0.0);
+        truth.assert_overlay(&picture, STEP);
         assert_eq!(renderer.stats().batches, 3, "20 lights are three batches");
         assert_eq!(renderer.stats().pairs, 20 * world.occluders.len(), "every pair is looked at");
     });
@@ -119,7 +119,7 @@ fn masks_of_many_lights_come_in_batches_and_say_what_the_overlay_says() {
     in_each_api(|gl| {
         let world = many_lights(20);
         let shot = Shot::new(gl, &world);
-        let truth = world.truth(&shot.seen, VIEWPORT[2]);
+        let truth = world.truth(&shot);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         let mut batches = Vec::new();
         renderer
@@ -128,7 +128,7 @@ fn masks_of_many_lights_come_in_batches_and_say_what_the_overlay_says() {
         assert_eq!(batches, [(0, BATCH_LIGHTS), (8, BATCH_LIGHTS), (16, 4)], "three batches");
         let masks = shot.masks(&mut renderer, &shot.frame());
         for (light, mask) in masks.iter().enumerate() {
-            truth.assert_mask(light, mask, 0.0);
+            truth.assert_mask(light, mask);
         }
         if renderer.caps().tier == Tier::Es3 {
             return;

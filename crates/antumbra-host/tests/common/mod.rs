@@ -71,3 +71,9 @@ pub(crate) fn truth(scene: &Scene, tracer: &Tracer, light: usize, width: u32, he
     let band = edge_band(&centers, &ids, w, h, 1);
     Truth { visibility, edge, band }
 }
+
+/// Pixels within one pixel of an edge of a light's shadow or of an object.
+pub(crate) fn band(tracer: &Tracer, light: usize, width: u32, height: u32) -> Vec<bool> {
+    let centers = tracer.visibility(light, width, height, Sampling::Center { light_samples: 1 }, &|_, _| {});
+    edge_band(&centers, &tracer.primitives_seen(width, height), width as usize, height as usize, 1)
+}

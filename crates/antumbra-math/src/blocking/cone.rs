@@ -6,46 +6,63 @@ use glam::{DVec3, DVec4};
 
 /// The ways from the light that meet a cone are those that cross its base or the triangle of its
 /// apex and the two points where planes through light and apex touch the base: that triangle
-/// divides the lit part of the lateral surface from the dark part. The papers of 2013 and 2017
-/// take the ends of a diameter instead of the tangent points and lose two slivers.
+/// divides the lit part of the lateral surface from the dark part. The papers (Avdić et al., 2013
+/// and 2017) take the ends of a diameter instead of the tangent points and lose two slivers.
+///
+/// The two leave out the part of the solid that lies before them, which no viewer outside can see:
+/// see [`holds`].
 pub(super) fn blockers(cone: &Cone, l: DVec4) -> Blockers {
     if !(cone.radius > 0.0 && cone.height >= 0.0) {
         return Blockers::NONE;
     }
-    if is_inside(cone, l) {
+    if holds(cone, l) {
         return Blockers::everything();
     }
-    if let Some(plane) = touched_plane(cone, l) {
-        let from_inside = (plane.normal * -1.0).extend(plane.offset); // dark below the tangent plane
-        let blocker =
-            PolygonBlocker { base: (from_inside.truncate(), from_inside.w), ..PolygonBlocker::EVERYTHING };
-        return Blockers::one(Blocker::Polygon(blocker), Outline::Everywhere);
+    if let Some(wedge) = touched(cone, l) {
+        return Blockers::one(Blocker::Polygon(wedge), Outline::Everywhere);
     }
     let base = Disc { center: cone.base_center, normal: cone.axis, radius: cone.radius };
     let triangle = tangent_points(cone, l).and_then(|[a, b]| polygon(&[cone.apex(), a, b], l));
-    Blockers { list: [disc(&base, l), triangle] }
+    Blockers { list: [disc(&base, l), triangle], solid: Some(*cone) }
 }
 
-/// The tangent plane, normal outwards, of a cone whose lateral surface the light touches: the
-/// light's whole far side of it is dark. Touching means to rounding, 1e-12 of the cone's size.
-fn touched_plane(cone: &Cone, l: DVec4) -> Option<Plane> {
+/// What a light on the surface of a cone leaves dark: the far side of the surface's tangent plane
+/// there, on the rim what is on the far side of both. Touching means to rounding, 1e-12 of the
+/// cone's size. The apex is no such point: from there the base alone is in the way.
+fn touched(cone: &Cone, l: DVec4) -> Option<PolygonBlocker<DVec3>> {
     if l.w == 0.0 || cone.height == 0.0 {
         return None;
     }
-    let from_base = l.truncate() - cone.base_center;
+    let light = l.truncate();
+    let from_base = light - cone.base_center;
     let height = cone.axis.dot(from_base);
-    let radial = (from_base - cone.axis * height).try_normalize()?;
-    let normal = (radial * cone.height + cone.axis * cone.radius).try_normalize()?;
-    let plane = Plane::through(cone.apex(), normal);
-    let touches = plane.height(l.truncate()).abs() <= 1e-12 * (cone.height + cone.radius);
-    (touches && height > 0.0 && height < cone.height).then_some(plane)
+    let base = Plane::through(cone.base_center, -cone.axis);
+    // On the axis there is no tangent plane, and only the base can be touched.
+    let lateral = (from_base - cone.axis * height)
+        .try_normalize()
+        .and_then(|radial| (radial * cone.height + cone.axis * cone.radius).try_normalize())
+        .map(|normal| Plane::through(cone.apex(), normal));
+    let tolerance = 1e-12 * (cone.height + cone.radius);
+    let (below, beside) = (-height, lateral.map_or(f64::NEG_INFINITY, |plane| plane.height(light)));
+    if !(below.max(beside).abs() <= tolerance && height < cone.height) {
+        return None;
+    }
+    let dark = |plane: Plane| (-plane.normal, plane.offset);
+    let touches = |distance: f64| distance.abs() <= tolerance;
+    let mut planes = lateral.filter(|_| touches(beside)).into_iter().chain(touches(below).then_some(base));
+    let mut wedge = PolygonBlocker { base: dark(planes.next()?), ..PolygonBlocker::EVERYTHING };
+    if let Some(other) = planes.next() {
+        wedge.edges[0] = dark(other);
+    }
+    Some(wedge)
 }
 
-fn is_inside(cone: &Cone, l: DVec4) -> bool {
-    if l.w == 0.0 {
+/// Whether the homogeneous point lies inside the cone, its surface left out.
+pub(super) fn holds(cone: &Cone, p: DVec4) -> bool {
+    if p.w == 0.0 {
         return false;
     }
-    let from_base = l.truncate() - cone.base_center;
+    let from_base = p.truncate() - cone.base_center;
     let height = cone.axis.dot(from_base);
     let off_axis = (from_base - cone.axis * height).length();
     height > 0.0 && off_axis * cone.height < cone.radius * (cone.height - height)

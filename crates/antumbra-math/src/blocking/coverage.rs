@@ -50,7 +50,8 @@ pub fn screen_footprint<V: Vector>(
 }
 
 /// The area of the unit pixel in which `value + slope_x·u + slope_y·v > 0`, u and v in
-/// [-1/2, 1/2]: exact for a straight edge. Without slope it is 1 for positive values and else 0.
+/// [-1/2, 1/2]: exact for a straight edge. Without slope, and where a slope is not finite, it is 1
+/// for positive values and else 0; 0 for a value that is NaN.
 pub fn half_plane_coverage<R: Real>(value: R, slope_x: R, slope_y: R) -> R {
     let (sx, sy) = (slope_x.abs(), slope_y.abs());
     let (major, minor) = (sx.max(sy), sx.min(sy));

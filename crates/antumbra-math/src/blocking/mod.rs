@@ -29,7 +29,7 @@ pub use polygon::{PolygonBlocker, polygon_coverage};
 pub use sphere::{SphereBlocker, sphere_coverage};
 
 use crate::real::{Real, Vector};
-use crate::{Disc, Light, Shape};
+use crate::{Cone, Disc, Light, Shape};
 use glam::{DMat4, DVec3, DVec4};
 
 /// One closed-form blocker of one light.
@@ -74,13 +74,19 @@ impl Blocker<DVec3> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blockers {
     list: [Option<(Blocker<DVec3>, Outline)>; 2],
+    /// The cone whose inside is dark beyond what the list says.
+    solid: Option<Cone>,
 }
 
 impl Blockers {
-    const NONE: Self = Self { list: [None, None] };
+    const NONE: Self = Self { list: [None, None], solid: None };
 
     fn one(blocker: Blocker<DVec3>, outline: Outline) -> Self {
-        Self { list: [Some((blocker, outline)), None] }
+        Self::flat(Some((blocker, outline)))
+    }
+
+    fn flat(blocker: Option<(Blocker<DVec3>, Outline)>) -> Self {
+        Self { list: [blocker, None], solid: None }
     }
 
     fn everything() -> Self {
@@ -92,15 +98,15 @@ impl Blockers {
     /// strictly inside a solid.
     pub fn new(shape: &Shape, light: &Light) -> Self {
         let l = light.homogeneous();
-        if !l.is_finite() {
+        if !(l.is_finite() && l != DVec4::ZERO && shape.is_finite()) {
             return Self::NONE;
         }
         let blockers = match shape {
             Shape::Plane(s) => PolygonBlocker::half_space(s, l)
                 .map_or(Self::NONE, |b| Self::one(Blocker::Polygon(b), Outline::Everywhere)),
-            Shape::Rectangle(s) => Self { list: [polygon(&s.corners(), l), None] },
-            Shape::Triangle(s) => Self { list: [polygon(&s.vertices, l), None] },
-            Shape::Disc(s) => Self { list: [disc(s, l), None] },
+            Shape::Rectangle(s) => Self::flat(polygon(&s.corners(), l)),
+            Shape::Triangle(s) => Self::flat(polygon(&s.vertices, l)),
+            Shape::Disc(s) => Self::flat(disc(s, l)),
             Shape::Sphere(s) => sphere::blockers(s, l),
             Shape::Cone(s) => cone::blockers(s, l),
         };
@@ -112,14 +118,27 @@ impl Blockers {
         self.list.iter().flatten()
     }
 
-    /// Whether any of them blocks the way from `point` to the light.
+    /// Whether any of them blocks the way from `point` to the light, or the point lies inside the
+    /// solid. Never for a point that is not finite.
     pub fn block(&self, point: DVec3) -> bool {
-        self.iter().any(|(b, _)| b.blocks(point))
+        point.is_finite() && (self.hold(point) || self.iter().any(|(b, _)| b.blocks(point)))
+    }
+
+    /// Whether the point lies inside a cone, part of which no blocker darkens.
+    fn hold(&self, point: DVec3) -> bool {
+        self.solid.is_some_and(|cone| cone::holds(&cone, point.extend(1.0)))
     }
 
     /// The fraction of the footprint's pixel that is in shadow: the larger of the blockers'
-    /// coverages, which is the union where at most one edge crosses the pixel.
+    /// coverages, which is the union where at most one edge crosses the pixel. None of a pixel
+    /// whose point is not finite, all of one whose point lies inside a solid.
     pub fn coverage(&self, footprint: &Footprint<DVec3>) -> f64 {
+        if !footprint.point.is_finite() {
+            return 0.0;
+        }
+        if self.hold(footprint.point) {
+            return 1.0;
+        }
         self.iter().map(|(b, _)| b.coverage(footprint)).fold(0.0, f64::max)
     }
 }
@@ -139,7 +158,11 @@ impl Blocker<DVec3> {
         match self {
             Self::Sphere(b) => b.center.is_finite() && b.radius.is_finite(),
             Self::Disc(b) => {
-                b.center.is_finite() && b.normal.is_finite() && b.toward.is_finite() && b.radius.is_finite()
+                b.center.is_finite()
+                    && b.radius.is_finite()
+                    && b.normal.is_finite()
+                    && b.toward.is_finite()
+                    && b.nearness.is_finite()
             }
             Self::Polygon(b) => b.planes().iter().all(|(n, d)| n.is_finite() && d.is_finite()),
         }

@@ -23,17 +23,11 @@ impl PolygonBlocker<DVec3> {
     /// Blocks the light from every point: what a light inside a solid does to the rest.
     pub const EVERYTHING: Self = Self { base: ANYWHERE, edges: [ANYWHERE; 4] };
 
-    /// A planar convex polygon of three or four corners, in order. `None` when it has no area or
-    /// the light lies in its plane.
+    /// A planar convex polygon of three or four corners, in order; more are left out. `None` when it
+    /// has no area or the light lies in its plane.
     pub fn new(corners: &[DVec3], light: DVec4) -> Option<Self> {
-        let &[a, b, c, ..] = corners else { return None };
-        let size = (b - a).length().max((c - a).length());
-        let normal = (b - a).cross(c - a);
-        // No area beyond what rounding makes.
-        if !(normal.length() > size * size * 1e-14) {
-            return None;
-        }
-        let plane = Plane::through(a, normal.normalize());
+        let corners = &corners[..corners.len().min(4)];
+        let plane = Self::plane_of(corners)?;
         let base = Self::half_space(&plane, light)?.base;
         // Light above the plane with the corners counter-clockwise seen from it: edges × light is inward.
         let turn = if base.0.dot(plane.normal) < 0.0 { 1.0 } else { -1.0 };
@@ -45,6 +39,20 @@ impl PolygonBlocker<DVec3> {
             *edge = (n, -n.dot(p));
         }
         Some(Self { base, edges })
+    }
+
+    /// The plane of a polygon, from the corner between its shorter sides: the vector product of two
+    /// long sides of a narrow triangle would cancel.
+    fn plane_of(corners: &[DVec3]) -> Option<Plane> {
+        let count = corners.len();
+        let side = |i: usize| corners[(i + 1) % count] - corners[i % count];
+        let around = |i: usize| side(i).length_squared() * side(i + 1).length_squared();
+        let first = (0..count).min_by(|&i, &j| around(i).total_cmp(&around(j))).filter(|_| count > 2)?;
+        let normal = side(first).cross(side(first + 1));
+        let longest = (0..count).map(|i| side(i).length()).fold(0.0, f64::max);
+        // No area beyond what rounding makes.
+        (normal.length() > longest * longest * 1e-14)
+            .then(|| Plane::through(corners[(first + 1) % count], normal.normalize()))
     }
 
     /// Everything on the far side of a plane. `None` when the light lies in it.

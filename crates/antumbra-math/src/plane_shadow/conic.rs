@@ -94,7 +94,7 @@ impl Curve {
     /// The curve c + a cos t + b sin t with b.z = 0; made a parabola if it nearly is one.
     pub(super) fn new(c: DVec3, a: DVec3, b: DVec3) -> Self {
         let mut curve = Self { c, a, b };
-        if (c.z - a.z.abs()).abs() <= PARABOLIC * (c.z.abs() + a.z.abs()) {
+        if (c.z - a.z.abs()).abs() <= IDEAL + PARABOLIC * (c.z.abs() + a.z.abs()) {
             curve.a.z = c.z.copysign(a.z);
         }
         curve
@@ -164,18 +164,20 @@ impl Curve {
         let center = ((c * cw - a * aw) / square).truncate();
         let (p, q) = (((a * cw - c * aw) / square).truncate(), b / square.abs().sqrt());
         let (pp, qq, pq) = (p.length_squared(), q.length_squared(), p.dot(q));
-        let axes = match self.kind() {
+        let first = match self.kind() {
             ShadowKind::Ellipse => {
                 let (sin, cos) = (0.5 * (2.0 * pq).atan2(pp - qq)).sin_cos();
-                Axes { center, first: p * cos + q * sin, second: q * cos - p * sin }
+                p * cos + q * sin
             }
             ShadowKind::Hyperbola => {
                 let turn = 0.5 * (-2.0 * pq / (pp + qq)).atanh();
-                let (sinh, cosh) = (turn.sinh(), turn.cosh());
-                Axes { center, first: p * cosh + q * sinh, second: p * sinh + q * cosh }
+                p * turn.cosh() + q * turn.sinh()
             }
             _ => return None,
         };
+        // Turning keeps the area between the two.
+        let second = first.perp() * (p.perp_dot(q) / first.length_squared());
+        let axes = Axes { center, first, second };
         (axes.center.is_finite() && axes.first.is_finite() && axes.second.is_finite()).then_some(axes)
     }
 }

@@ -37,7 +37,11 @@ impl Edge {
 
     /// The point of parameter `t` in [0, 1].
     pub(super) fn at(&self, t: f64) -> DVec3 {
-        let s = 1.0 - t;
+        self.at_pair([1.0 - t, t])
+    }
+
+    /// The point of parameters (1 - t, t), both of which are exact next to 0.
+    fn at_pair(&self, [s, t]: [f64; 2]) -> DVec3 {
         match *self {
             Self::Line([a, b]) => a * s + b * t,
             Self::Arc([a, b, c]) => a * (s * s) + b * (2.0 * s * t) + c * (t * t),
@@ -85,37 +89,46 @@ impl Edge {
         }
     }
 
-    /// The part from parameter `t0` to `t1`.
-    fn part(&self, t0: f64, t1: f64) -> Self {
+    /// The part from one pair of parameters to another.
+    fn part(&self, from: [f64; 2], to: [f64; 2]) -> Self {
         match *self {
-            Self::Line(_) => Self::Line([self.at(t0), self.at(t1)]),
+            Self::Line(_) => Self::Line([self.at_pair(from), self.at_pair(to)]),
             Self::Arc([a, b, c]) => {
-                let (s0, s1) = (1.0 - t0, 1.0 - t1);
+                let ([s0, t0], [s1, t1]) = (from, to);
                 let middle = a * (s0 * s1) + b * (s0 * t1 + s1 * t0) + c * (t0 * t1);
-                Self::Arc([self.at(t0), middle, self.at(t1)])
+                Self::Arc([self.at_pair(from), middle, self.at_pair(to)])
             }
         }
     }
 
     /// The parts of the edge where `f` · point >= 0, in order.
-    pub(super) fn clipped(&self, f: DVec3) -> impl Iterator<Item = Self> {
-        let mut cuts = [0.0, 1.0, 1.0, 1.0];
+    pub(super) fn clipped(&self, f: DVec3) -> Vec<Self> {
         match *self {
             Self::Line([a, b]) => {
                 let (fa, fb) = (f.dot(a), f.dot(b));
-                cuts[1] = if (fa < 0.0) != (fb < 0.0) { fa / (fa - fb) } else { 1.0 };
+                // The common point of two lines, b fa - a fb in a form that stays exact when the ends
+                // are far away to both sides.
+                let cut = a.cross(b).cross(f) * if fa < 0.0 { -1.0 } else { 1.0 };
+                let cut = cut.with_z(cut.z.max(0.0));
+                match (fa >= 0.0, fb >= 0.0) {
+                    (true, true) => vec![*self],
+                    (true, false) if fa > 0.0 => vec![Self::Line([a, cut])],
+                    (false, true) if fb > 0.0 => vec![Self::Line([cut, b])],
+                    _ => Vec::new(),
+                }
             }
             Self::Arc([a, b, c]) => {
-                let mut roots = bernstein_roots(f.dot(a), f.dot(b), f.dot(c));
-                roots.sort_by(f64::total_cmp);
-                (cuts[1], cuts[2]) = (roots[0], roots[1]);
+                let mut cuts = bernstein_roots(f.dot(a), f.dot(b), f.dot(c)).to_vec();
+                cuts.extend([[1.0, 0.0], [0.0, 1.0]]);
+                cuts.sort_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+                let kept = |pair: &[[f64; 2]]| {
+                    let middle = [0, 1].map(|i| 0.5 * (pair[0][i] + pair[1][i]));
+                    let inside = pair[0] != pair[1] && f.dot(self.at_pair(middle)) >= 0.0;
+                    inside.then(|| self.part(pair[0], pair[1]))
+                };
+                cuts.windows(2).filter_map(kept).collect()
             }
         }
-        let edge = *self;
-        (0..3).filter_map(move |i| {
-            let (t0, t1) = (cuts[i], cuts[i + 1]);
-            (t0 < t1 && f.dot(edge.at(0.5 * (t0 + t1))) >= 0.0).then(|| edge.part(t0, t1))
-        })
     }
 
     /// The largest `direction` · point on the edge, and the homogeneous point where it is; infinite
@@ -150,9 +163,9 @@ impl Edge {
             }
             // Zeros of the derivative of x(t) / w(t).
             let cross = |p: DVec3, q: DVec3| d.dot(q) * p.z - d.dot(p) * q.z;
-            for t in bernstein_roots(cross(a, b), 0.5 * cross(a, c), cross(b, c)) {
-                let p = self.at(t);
-                if t < 1.0 && p.z > 0.0 {
+            for pair in bernstein_roots(cross(a, b), 0.5 * cross(a, c), cross(b, c)) {
+                let p = self.at_pair(pair);
+                if p.z > 0.0 {
                     consider(p, d.dot(p) / p.z);
                 }
             }
@@ -197,19 +210,19 @@ impl Edge {
     }
 }
 
-/// The parameters in (0, 1) where f0 (1-t)² + 2 f1 t (1-t) + f2 t² is zero, and 1 for each that is
-/// missing. A polynomial that is zero everywhere has none.
-fn bernstein_roots(f0: f64, f1: f64, f2: f64) -> [f64; 2] {
+/// The pairs of parameters (1 - t, t), t in (0, 1), where f0 (1-t)² + 2 f1 t (1-t) + f2 t² is zero;
+/// (0, 1), the end, for each that is missing. A polynomial that is zero everywhere has none.
+fn bernstein_roots(f0: f64, f1: f64, f2: f64) -> [[f64; 2]; 2] {
+    const END: [f64; 2] = [0.0, 1.0];
     let discriminant = f1 * f1 - f0 * f2;
     if discriminant.is_nan() || discriminant < 0.0 {
-        return [1.0, 1.0];
+        return [END, END];
     }
-    // In s = t / (1-t) it is f2 s² + 2 f1 s + f0; the two forms of the root avoid cancellation.
+    // In t / (1-t) it is f2 x² + 2 f1 x + f0; the two forms of the root avoid cancellation.
     let q = -(f1 + discriminant.sqrt().copysign(f1));
     [(q, f2), (f0, q)].map(|(up, down)| {
-        // t = s / (1 + s) = up / (up + down)
-        let t = up / (up + down);
-        if t > 0.0 && t < 1.0 { t } else { 1.0 }
+        let (s, t) = (down / (up + down), up / (up + down));
+        if s > 0.0 && t > 0.0 { [s, t] } else { END }
     })
 }
 
@@ -267,7 +280,7 @@ mod tests {
 
     #[test]
     fn clipping_an_arc_keeps_the_circle() {
-        let parts: Vec<Edge> = circle(1.2).clipped(DVec3::new(-1.0, 0.0, 0.7)).collect();
+        let parts: Vec<Edge> = circle(1.2).clipped(DVec3::new(-1.0, 0.0, 0.7));
         assert_eq!(parts.len(), 2, "x <= 0.7 cuts the middle out: {parts:?}");
         for part in parts {
             for i in 0..=10 {

@@ -26,6 +26,25 @@ impl Shape {
     }
 }
 
+impl Shape {
+    /// Whether every number is finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        match self {
+            Self::Plane(s) => s.normal.is_finite() && s.offset.is_finite(),
+            Self::Rectangle(s) => [s.center, s.half_right, s.half_forward].iter().all(|v| v.is_finite()),
+            Self::Disc(s) => s.center.is_finite() && s.normal.is_finite() && s.radius.is_finite(),
+            Self::Triangle(s) => s.vertices.iter().all(|v| v.is_finite()),
+            Self::Sphere(s) => s.center.is_finite() && s.radius.is_finite(),
+            Self::Cone(s) => {
+                s.base_center.is_finite()
+                    && s.axis.is_finite()
+                    && s.radius.is_finite()
+                    && s.height.is_finite()
+            }
+        }
+    }
+}
+
 impl Light {
     /// Whether any light arrives in the ball: false only where a spot's cone passes it by.
     pub fn may_reach(&self, center: DVec3, radius: f64) -> bool {

@@ -8,7 +8,7 @@ use antumbra_reference::intersect::Body;
 use antumbra_scene as scene;
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::plane_shadow_support::{Random, grown, moved, normal};
+use crate::plane_shadow_support::{Random, grown, normal};
 
 /// How many times the usual number of cases to run, from the environment variable ANTUMBRA_CASES.
 pub(crate) fn cases(usual: usize) -> usize {
@@ -60,40 +60,16 @@ pub(crate) fn way(light: &Light, point: DVec3) -> Ray {
     }
 }
 
-/// The ray tracer's answers for a shape and for what is within `edge` metres of it.
+/// The ray tracer's answers for a shape and a light.
 pub(crate) struct Oracle {
-    exact: Body,
-    larger: Body,
-    smaller: Body,
+    shape: Shape,
     light: Light,
-    /// The light a bit to either side of a flat shape.
-    beside: [Light; 2],
-    step: DVec3,
-    flat: bool,
+    exact: Body,
 }
 
 impl Oracle {
-    /// `None` for a shape that is smaller than the edge.
-    pub(crate) fn new(shape: &Shape, light: &Light, edge: f64) -> Option<Self> {
-        let thin = match shape {
-            Shape::Triangle(Triangle { vertices: [a, b, c] }) => {
-                (*b - *a).cross(*c - *a).length() / (a.distance(*b) + b.distance(*c) + c.distance(*a))
-            }
-            Shape::Rectangle(r) => r.half_right.length().min(r.half_forward.length()),
-            Shape::Cone(c) => c.radius * c.height / (c.radius + c.radius.hypot(c.height)),
-            Shape::Disc(Disc { radius, .. }) | Shape::Sphere(Sphere { radius, .. }) => *radius,
-            Shape::Plane(_) => f64::INFINITY,
-        };
-        let step = normal(shape) * edge;
-        (thin > 2.0 * edge).then(|| Self {
-            exact: body(shape),
-            larger: body(&grown(shape, edge)),
-            smaller: body(&grown(shape, -edge)),
-            light: *light,
-            beside: [moved(light, step), moved(light, -step)],
-            step,
-            flat: !matches!(shape, Shape::Sphere(_) | Shape::Cone(_)),
-        })
+    pub(crate) fn new(shape: &Shape, light: &Light) -> Self {
+        Self { shape: *shape, light: *light, exact: body(shape) }
     }
 
     /// Whether the way from `point` to the light is blocked.
@@ -101,26 +77,77 @@ impl Oracle {
         self.exact.blocks(&way(&self.light, point))
     }
 
-    /// The same, `None` where a shape larger or smaller by the edge, or for a flat one the point or
-    /// the light moved across it by as much, changes the answer.
-    pub(crate) fn decide(&self, point: DVec3) -> Option<bool> {
+    /// The same, `None` where a shape larger or smaller by `edge` metres, in every direction,
+    /// changes the answer. So do a point and a light that are moved by so much.
+    pub(crate) fn decide(&self, point: DVec3, edge: f64) -> Option<bool> {
         let ray = way(&self.light, point);
         let answer = self.exact.blocks(&ray);
-        let mut same = self.larger.blocks(&ray) == answer && self.smaller.blocks(&ray) == answer;
-        if same && self.flat {
-            // A hit of the larger shape counts for a way that slips past the exact one.
-            let body = if answer { &self.smaller } else { &self.larger };
-            let nudged = |by| body.blocks(&way(&self.light, point + by)) == answer;
-            same = nudged(self.step)
-                && nudged(-self.step)
-                && self.beside.iter().all(|light| body.blocks(&way(light, point)) == answer);
+        let mut edge = edge;
+        if self.is_flat() {
+            // A step across the plane moves the crossing in the plane by step / tan(elevation).
+            let normal = normal(&self.shape);
+            let elevation = normal.dot(ray.direction).abs() / ray.direction.length();
+            let height = |p: DVec3| normal.dot(p - self.anchor()).abs();
+            let light_touches = ray.max == 1.0 && height(ray.at(1.0)) <= edge;
+            // The plane of a narrow shape tilts if a corner moves.
+            let elevation = elevation - edge / self.thinness();
+            if height(point) <= edge || light_touches || !(elevation > 0.0) {
+                return None;
+            }
+            edge /= elevation;
         }
-        same.then_some(answer)
+        let other = if answer {
+            if self.thinness() <= 2.0 * edge {
+                return None;
+            }
+            grown(&self.shape, -edge)
+        } else {
+            grown(&self.shape, edge)
+        };
+        (body(&other).blocks(&ray) == answer).then_some(answer)
     }
 
     /// Whether the point is in a solid, or within the edge of it.
-    pub(crate) fn may_hold(&self, point: DVec3) -> bool {
-        !self.flat && self.larger.blocks(&Ray { max: 1e-300, ..Ray::new(point, DVec3::X) })
+    pub(crate) fn may_hold(&self, point: DVec3, edge: f64) -> bool {
+        let there = Ray { max: 1e-300, ..Ray::new(point, DVec3::X) };
+        !self.is_flat() && body(&grown(&self.shape, edge)).blocks(&there)
+    }
+
+    /// Whether the light is on the rim of a cone, or nearer to it than `edge`.
+    pub(crate) fn light_on_rim(&self, edge: f64) -> bool {
+        let (Shape::Cone(c), Light::Point { position } | Light::Spot { position, .. }) =
+            (self.shape, self.light)
+        else {
+            return false;
+        };
+        let from_base = position - c.base_center;
+        let height = c.axis.dot(from_base);
+        ((from_base - c.axis * height).length() - c.radius).hypot(height) <= edge
+    }
+
+    fn is_flat(&self) -> bool {
+        !matches!(self.shape, Shape::Sphere(_) | Shape::Cone(_))
+    }
+
+    fn anchor(&self) -> DVec3 {
+        match self.shape {
+            Shape::Triangle(t) => t.vertices[0],
+            Shape::Plane(p) => p.normal * p.offset,
+            _ => self.shape.bounding_sphere().0,
+        }
+    }
+
+    /// The radius of a ball, or disc if flat, that fits into the shape.
+    fn thinness(&self) -> f64 {
+        match self.shape {
+            Shape::Triangle(Triangle { vertices: [a, b, c] }) => {
+                (b - a).cross(c - a).length() / (a.distance(b) + b.distance(c) + c.distance(a))
+            }
+            Shape::Rectangle(r) => r.half_right.length().min(r.half_forward.length()),
+            Shape::Cone(c) => c.radius * c.height / (c.radius + c.radius.hypot(c.height)),
+            Shape::Disc(Disc { radius, .. }) | Shape::Sphere(Sphere { radius, .. }) => radius,
+            Shape::Plane(_) => f64::INFINITY,
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! The other side of the tests of shadows on planes: rays against shapes, one at a time and by the
-//! book, and random settings. It uses the library's data types and none of its code.
+//! book, and random settings. It uses the library's types and frames and none of its geometry.
 #![allow(dead_code, reason = "each test program uses a part")]
+
+pub(crate) mod settings;
 
 use antumbra_math::{Cone, Disc, Light, Rectangle, Shape, Sphere, Triangle};
 use glam::DVec3;
