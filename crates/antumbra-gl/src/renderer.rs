@@ -278,12 +278,16 @@ impl Renderer {
     /// # Safety
     /// A [`StateGuard`] is alive.
     unsafe fn upload(&mut self) -> Result<(), Error> {
-        let upload = &mut self.uploads[self.next_upload];
-        self.next_upload = (self.next_upload + 1) % UPLOADS;
         let vertices = bytemuck::cast_slice(&self.pairs.vertices);
         // SAFETY: the caller's.
         unsafe {
-            upload.fill(&self.gl, &self.caps, vertices, &mut self.pairs.texels)?;
+            // All grow together, so that none has to in a later frame.
+            for upload in &mut self.uploads {
+                upload.reserve(&self.gl, &self.caps, vertices.len(), self.pairs.texels.len())?;
+            }
+            let upload = &self.uploads[self.next_upload];
+            self.next_upload = (self.next_upload + 1) % UPLOADS;
+            upload.fill(&self.gl, vertices, &mut self.pairs.texels);
             self.gl.bind_vertex_array(Some(upload.vertex_array));
             bind_texture(&self.gl, 3, 1, upload.texture);
         }

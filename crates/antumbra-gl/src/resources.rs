@@ -152,35 +152,50 @@ impl Upload {
         }
     }
 
-    /// Uploads one batch; storage doubles when it is too small.
+    /// Makes room for that many bytes of vertices and rows of texels: storage doubles when it is
+    /// too small.
     ///
     /// # Safety
     /// A [`crate::state::StateGuard`] is alive: bindings are changed.
-    pub(crate) unsafe fn fill(
+    pub(crate) unsafe fn reserve(
         &mut self,
         gl: &glow::Context,
         caps: &Caps,
-        vertices: &[u8],
-        texels: &mut Vec<glam::Vec4>,
+        bytes: usize,
+        texels: usize,
     ) -> Result<(), Error> {
-        let rows = texels.len().div_ceil(ROW).max(1);
+        let rows = texels.div_ceil(ROW).max(1);
         if rows > caps.max_texture_size as usize {
             return Err(Error::Unsupported { what: "this many occluders", needs: "larger textures" });
         }
+        // SAFETY: the caller's; sizes are within the driver's limits.
+        unsafe {
+            if bytes > self.buffer_bytes {
+                self.buffer_bytes = bytes.next_power_of_two();
+                gl.bind_buffer(glow::ARRAY_BUFFER, Some(self.buffer));
+                gl.buffer_data_size(glow::ARRAY_BUFFER, self.buffer_bytes as i32, glow::STREAM_DRAW);
+            }
+            if rows > self.rows {
+                self.rows = rows.next_power_of_two().min(caps.max_texture_size as usize);
+                gl.bind_texture(glow::TEXTURE_2D, Some(self.texture));
+                texture_storage(gl, glow::RGBA32F, ROW as i32, self.rows as i32);
+            }
+        }
+        Ok(())
+    }
+
+    /// Uploads one batch.
+    ///
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive: bindings are changed. There is room for the batch.
+    pub(crate) unsafe fn fill(&self, gl: &glow::Context, vertices: &[u8], texels: &mut Vec<glam::Vec4>) {
+        let rows = texels.len().div_ceil(ROW).max(1);
         texels.resize(rows * ROW, glam::Vec4::ZERO);
         // SAFETY: the caller's; the slices outlive the calls, and texels fill whole rows.
         unsafe {
             gl.bind_buffer(glow::ARRAY_BUFFER, Some(self.buffer));
-            if vertices.len() > self.buffer_bytes {
-                self.buffer_bytes = vertices.len().next_power_of_two();
-                gl.buffer_data_size(glow::ARRAY_BUFFER, self.buffer_bytes as i32, glow::STREAM_DRAW);
-            }
             gl.buffer_sub_data_u8_slice(glow::ARRAY_BUFFER, 0, vertices);
             gl.bind_texture(glow::TEXTURE_2D, Some(self.texture));
-            if rows > self.rows {
-                self.rows = rows.next_power_of_two().min(caps.max_texture_size as usize);
-                texture_storage(gl, glow::RGBA32F, ROW as i32, self.rows as i32);
-            }
             gl.tex_sub_image_2d(
                 glow::TEXTURE_2D,
                 0,
@@ -193,7 +208,6 @@ impl Upload {
                 glow::PixelUnpackData::Slice(Some(bytemuck::cast_slice(texels))),
             );
         }
-        Ok(())
     }
 
     /// # Safety

@@ -59,9 +59,7 @@ fn check(kind: u64, settings: usize) {
         for _ in 0..POINTS {
             // Between a lit and a dark point lies an edge: half the points close in on it.
             let point = match (lit_point, dark_point) {
-                (Some(a), Some(b)) if random.choice(2) == 0 => {
-                    close_in(&oracle, a, b, 3 + random.choice(30))
-                }
+                (Some(a), Some(b)) if random.choice(2) == 0 => close_in(&oracle, a, b, 3 + random.choice(30)),
                 _ => ask(&mut random, &setting),
             };
             *(if oracle.blocks(point) { &mut dark_point } else { &mut lit_point }) = Some(point);
@@ -152,8 +150,7 @@ fn a_small_far_ball_in_float32() {
         let exact = center.as_dvec3().cross(light.as_dvec3().normalize()).length() < f64::from(radius);
         let blocker = Blocker::Sphere(SphereBlocker { center, radius, light, light_w: 1.0 });
         wrong += u64::from(blocker.blocks(Vec3::ZERO) != exact);
-        let (a, b, c) =
-            (light.dot(light), light.dot(center), center.dot(center) - radius * radius);
+        let (a, b, c) = (light.dot(light), light.dot(center), center.dot(center) - radius * radius);
         wrong_by_discriminant += u64::from((b * b - a * c > 0.0) != exact);
     }
     let share = |wrong: u64| wrong as f64 / count as f64;

@@ -169,7 +169,7 @@ fn equations_and_axes_describe_the_outline() {
                 assert!(axes.first.dot(axes.second).abs() <= 1e-7 * a * b, "perpendicular: {axes:?}");
                 let error = shadow.area() / (std::f64::consts::PI * a * b) - 1.0;
                 // The axes are as exact as the circle's shadow in the plane's coordinates.
-                let rounding = 1e-15 * (axes.center.length() + a) / b;
+                let rounding = 1e-15 * ((axes.center.length() + a) / b + (a / b).powi(2));
                 assert!(error.abs() < 1e-9 + 10.0 * rounding, "area π a b, {error}: {shadow:?}");
                 for inside in [1.0 - 1e-3, -1.0 + 1e-3] {
                     assert!(shadow.contains(axes.center + axes.first * inside), "{shadow:?}");
@@ -199,5 +199,5 @@ fn equations_and_axes_describe_the_outline() {
             other => panic!("a conic is one of three kinds: {other:?}"),
         }
     }
-    assert!(compared[0] > 5000 && compared[1] > 1000 && compared[2] > 20, "{compared:?}");
+    assert!(compared[0] > 4000 && compared[1] > 1000 && compared[2] > 20, "{compared:?}");
 }

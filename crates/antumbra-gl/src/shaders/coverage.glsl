@@ -17,7 +17,7 @@ Footprint screen_footprint(vec3 point, vec3 normal, vec3 pixel_step) {
     float distance = perspective ? -point.z : 1.0;
     vec2 size = pixel_step.xy * distance;
     // A surface seen edge-on has no finite footprint: limit the slope.
-    float limit = distance * 1e-3;
+    float limit = max(distance * 1e-3, 1e-30);
     float facing = dot(sight, normal);
     facing = facing < 0.0 ? min(facing, -limit) : max(facing, limit);
     vec3 slope = sight * (1.0 / facing);
@@ -34,7 +34,8 @@ float half_plane_coverage(float value, float slope_x, float slope_y) {
     float rest = max(reach - distance, 0.0);
     bool corner = distance >= (major - minor) * 0.5;
     float above = corner ? rest * rest : major * 0.5 - distance;
-    float below = corner ? 2.0 * major * minor : major;
+    // The product of two small slopes may underflow.
+    float below = corner ? max(2.0 * major * minor, 1e-37) : major;
     float small = rest > 0.0 ? above / below : 0.0;
     return value > 0.0 ? 1.0 - small : small;
 }
@@ -50,7 +51,7 @@ vec3 pixel_edge(float value, vec3 gradient, Footprint footprint) {
 // if they face each other, the product at right angles, and by the cosine between those.
 float corner_coverage(vec3 a, vec3 b) {
     float lengths = dot(a.yz, a.yz) * dot(b.yz, b.yz);
-    float cosine = dot(a.yz, b.yz) / sqrt(max(lengths, 1e-30));
+    float cosine = dot(a.yz, b.yz) / sqrt(max(lengths, 1e-37));
     float extreme = cosine > 0.0 ? min(a.x, b.x) : max(a.x + b.x - 1.0, 0.0);
     return mix(a.x * b.x, extreme, min(abs(cosine), 1.0));
 }

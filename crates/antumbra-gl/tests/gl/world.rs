@@ -177,8 +177,9 @@ fn ray(camera: &Camera, at: [f64; 2]) -> Ray {
 }
 
 /// By how much antialiasing may be off where a shadow is narrower than a pixel, or its tip ends: it
-/// knows one edge exactly, two by their angle, and not that a ball has another side.
-const SLIVER: f32 = 0.3;
+/// knows one edge exactly and two by their angle. A ball's or a disc's other side it does not know:
+/// a thread of shadow through the pixel's centre counts as half of it.
+const SLIVER: f32 = 0.5;
 
 /// The fraction of pixels in which shadows meet, each with an edge in the pixel: of their visibilities
 /// the smaller one is taken, and a little light is left along the seam.

@@ -27,7 +27,8 @@ impl<V: Vector> Footprint<V> {
 /// 2/(width P₀₀) and 2/(height P₁₁), or in metres for an orthographic projection.
 ///
 /// Length and sign of the normal do not matter, except that a surface seen edge-on has no finite
-/// footprint: for a unit normal its slope is limited to about 1000.
+/// footprint: for a unit normal its slope is limited to about 1000. A point at the eye has a
+/// footprint without extent.
 pub fn screen_footprint<V: Vector>(
     point: V,
     normal: V,
@@ -37,7 +38,7 @@ pub fn screen_footprint<V: Vector>(
     let (zero, one) = (V::Real::ZERO, V::Real::ONE);
     let forward = V::new(zero, zero, -one);
     let (sight, distance) = if perspective { (point, point.dot(forward)) } else { (forward, one) };
-    let limit = distance * V::Real::from_f64(1e-3);
+    let limit = (distance * V::Real::from_f64(1e-3)).max(V::Real::from_f64(1e-30));
     let facing = sight.dot(normal);
     let facing = if facing < zero { facing.min(-limit) } else { facing.max(limit) };
     let slope = sight * (one / facing);
@@ -50,8 +51,8 @@ pub fn screen_footprint<V: Vector>(
 }
 
 /// The area of the unit pixel in which `value + slope_x·u + slope_y·v > 0`, u and v in
-/// [-1/2, 1/2]: exact for a straight edge. Without slope, and where a slope is not finite, it is 1
-/// for positive values and else 0; 0 for a value that is NaN.
+/// [-1/2, 1/2]: exact for a straight edge. Without slope it is 1 for positive values and else 0,
+/// across an infinite one 1/2; 0 for a value that is NaN. Never outside [0, 1].
 pub fn half_plane_coverage<R: Real>(value: R, slope_x: R, slope_y: R) -> R {
     let (sx, sy) = (slope_x.abs(), slope_y.abs());
     let (major, minor) = (sx.max(sy), sx.min(sy));
@@ -61,11 +62,12 @@ pub fn half_plane_coverage<R: Real>(value: R, slope_x: R, slope_y: R) -> R {
     let rest = (reach - distance).max(R::ZERO);
     let corner = distance >= (major - minor) * R::HALF;
     let (above, below) = if corner {
-        (rest * rest, (R::ONE + R::ONE) * major * minor)
+        // The product of two small slopes may underflow.
+        (rest * rest, ((R::ONE + R::ONE) * major * minor).max(R::from_f64(1e-37)))
     } else {
         (major * R::HALF - distance, major)
     };
-    let small = if rest > R::ZERO { above / below } else { R::ZERO };
+    let small = if rest > R::ZERO { (above / below).min(R::HALF) } else { R::ZERO };
     if value > R::ZERO { R::ONE - small } else { small }
 }
 
@@ -98,7 +100,8 @@ impl<R: Real> Edge<R> {
 pub(super) fn corner_coverage<R: Real>(a: &Edge<R>, b: &Edge<R>) -> R {
     let (p, q) = (a.slope, b.slope);
     let lengths = (p.0 * p.0 + p.1 * p.1) * (q.0 * q.0 + q.1 * q.1);
-    let cosine = (p.0 * q.0 + p.1 * q.1) / lengths.max(R::from_f64(1e-30)).sqrt();
+    // The least float32 keeps: right angles are what pixels below a nanometre get.
+    let cosine = (p.0 * q.0 + p.1 * q.1) / lengths.max(R::from_f64(1e-37)).sqrt();
     let product = a.coverage * b.coverage;
     let extreme = if cosine > R::ZERO {
         a.coverage.min(b.coverage)

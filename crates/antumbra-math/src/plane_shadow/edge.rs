@@ -11,6 +11,10 @@ use glam::{DVec2, DVec3};
 /// jump between a number and infinity.
 const PARALLEL: f64 = 1e-12;
 
+/// Below this sine of the angle between two lines (as homogeneous vectors) their common point is taken
+/// between the ends of the one that is cut: both ways of computing it are then equally good.
+const NEARLY_SAME: f64 = 1e-8;
+
 /// A line or an arc. All w >= 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Edge {
@@ -106,10 +110,14 @@ impl Edge {
         match *self {
             Self::Line([a, b]) => {
                 let (fa, fb) = (f.dot(a), f.dot(b));
-                // The common point of two lines, b fa - a fb in a form that stays exact when the ends
-                // are far away to both sides.
-                let cut = a.cross(b).cross(f) * if fa < 0.0 { -1.0 } else { 1.0 };
-                let cut = cut.with_z(cut.z.max(0.0));
+                // b fa - a fb: in a form that stays exact when the ends are far away to both sides,
+                // but not if the line and the cut are nearly the same.
+                let line = a.cross(b);
+                let between = (a * fb.abs() + b * fa.abs()) / (fa.abs() + fb.abs());
+                let exact = line.cross(f);
+                let same = exact.length() <= NEARLY_SAME * line.length() * f.length();
+                let exact = exact * (between.z / exact.z);
+                let cut = if same || !exact.is_finite() { between } else { exact };
                 match (fa >= 0.0, fb >= 0.0) {
                     (true, true) => vec![*self],
                     (true, false) if fa > 0.0 => vec![Self::Line([a, cut])],

@@ -106,18 +106,33 @@ impl Outline {
 
     /// The part of the region where f · (x, y, 1) >= 0; `None` if there is none.
     pub(super) fn clipped(&self, f: DVec3) -> Option<Self> {
+        self.cut(f).recentered()
+    }
+
+    /// The same in the region's own coordinates; without edges if there is none.
+    fn cut(&self, f: DVec3) -> Self {
         let normal = f.truncate();
         let local = (normal * self.scale).extend(normal.dot(self.origin) + f.z);
         // Where the cut runs from infinity to infinity, it takes a finite point to say where.
         let n = local.truncate();
         let foot = (-n * (local.z / n.length_squared())).extend(1.0);
-        let kept = close(self.edges.iter().flat_map(|edge| edge.clipped(local)), Some(foot));
-        Self { edges: kept, ..*self }.recentered()
+        let edges = close(self.edges.iter().flat_map(|edge| edge.clipped(local)), Some(foot));
+        Self { edges, ..*self }
     }
 
     /// The part of the region in a box; `None` if there is none.
     pub(super) fn within(&self, bounds: &Bounds) -> Option<Self> {
-        bounds.half_planes().try_fold(self.clone(), |outline, f| outline.clipped(f))
+        let mut outline = self.clone();
+        if bounds.is_finite() {
+            // The box's own coordinates first: the region's middle may be far away.
+            let origin = 0.5 * (bounds.min + bounds.max);
+            let scale = 0.5 * (bounds.max - bounds.min).length();
+            let shift = self.origin - origin;
+            let local = |p: DVec3| ((p.truncate() * self.scale + shift * p.z) / scale).extend(p.z);
+            let edges: Vec<Edge> = self.edges.iter().map(|edge| edge.map(local)).collect();
+            outline = Self { edges, origin, scale };
+        }
+        bounds.half_planes().fold(outline, |outline, f| outline.cut(f)).recentered()
     }
 
     /// Whether a point lies inside.
