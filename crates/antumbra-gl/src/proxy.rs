@@ -65,14 +65,7 @@ impl ProxyBuilder {
         if self.hull.is_empty() {
             return &self.hull;
         }
-        self.points.clear();
-        for p in &self.hull {
-            self.points.extend(
-                [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-                    .map(|(x, y)| *p + DVec2::new(x, y) * MARGIN),
-            );
-        }
-        convex_hull(&mut self.points, &mut self.hull);
+        self.widen();
         self.clip_to(size);
         &self.hull
     }
@@ -133,6 +126,32 @@ impl ProxyBuilder {
                     // Between the one that goes away and the one that comes nearer.
                     self.points.push(far((e * d.w - d * e.w) * here.signum()));
                 }
+            }
+        }
+    }
+
+    /// Moves every side of the polygon outwards; sharp corners are cut off beyond the margin.
+    fn widen(&mut self) {
+        std::mem::swap(&mut self.hull, &mut self.points);
+        self.hull.clear();
+        let count = self.points.len();
+        if let [dot] = self.points[..] {
+            let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+            self.hull.extend(square.map(|(x, y)| dot + DVec2::new(x, y) * MARGIN));
+            return;
+        }
+        let outward = |i: usize| {
+            let side = self.points[(i + 1) % count] - self.points[i % count];
+            DVec2::new(side.y, -side.x).normalize_or_zero()
+        };
+        for (i, &corner) in self.points.iter().enumerate() {
+            let (before, after) = (outward(i + count - 1), outward(i));
+            let cosine = before.dot(after);
+            if cosine > 0.0 {
+                self.hull.push(corner + (before + after) * (MARGIN / (1.0 + cosine)));
+            } else {
+                let tip = (before.perp() - after.perp()).normalize_or_zero();
+                self.hull.extend([before, tip, after].map(|to| corner + to * MARGIN));
             }
         }
     }

@@ -69,21 +69,33 @@ impl Setting {
             background: scene.image.background.as_vec3(),
             ambient: scene.ambient.as_vec3() * PI,
             near,
-            bounds: bounds(&moment),
+            bounds: bounds(&moment, scene.camera.eye),
             primitives: moment.primitives,
         })
     }
 }
 
-/// The sides of a box round everything; none where something is infinite.
-fn bounds(moment: &Moment) -> Vec<Plane> {
-    let boxes: Option<Vec<_>> = moment.primitives.iter().map(Primitive::bounds).collect();
-    let whole = boxes.into_iter().flatten().reduce(|(a, b), (c, d)| (a.min(c), b.max(d)));
-    let sides = |(low, high): (DVec3, DVec3)| {
-        let side = move |axis| [Plane::through(low, axis), Plane::through(high, -axis)];
-        [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(side)
-    };
-    whole.into_iter().flat_map(sides).collect()
+/// Half-spaces that hold everything seen: the eye's side of every infinite plane, or the sides of a
+/// box round everything.
+fn bounds(moment: &Moment, eye: DVec3) -> Vec<Plane> {
+    let mut planes = Vec::new();
+    let mut whole: Option<(DVec3, DVec3)> = None;
+    for primitive in &moment.primitives {
+        match primitive.bounds() {
+            Some((low, high)) => whole = Some(whole.map_or((low, high), |(a, b)| (a.min(low), b.max(high)))),
+            None => {
+                let plane = Plane::through(primitive.pose.translation, primitive.pose.direction(DVec3::Y));
+                let side = plane.height(eye).signum();
+                planes.push(Plane { normal: plane.normal * side, offset: plane.offset * side });
+            }
+        }
+    }
+    if let (Some((low, high)), true) = (whole, planes.is_empty()) {
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            planes.extend([Plane::through(low, axis), Plane::through(high, -axis)]);
+        }
+    }
+    planes
 }
 
 /// Half the distance to the nearest thing, so that the depth buffer spends its digits well.

@@ -15,11 +15,22 @@ const SCENES: u64 = 40;
 /// bound of the exact half-plane coverage, 0.010, plus corners, grazing receivers and 8-bit masks.
 #[test]
 fn random_scenes_are_classified_right() {
-    let Some(context) = common::context(Api::Gl33) else { return };
-    let mut stage = Stage::new(context.gl()).expect("a stage");
     let scenes = std::env::var("ANTUMBRA_SCENES").map_or(SCENES, |n| n.parse().expect("a number of scenes"));
+    classify(Api::Gl33, 0..scenes);
+}
+
+/// The same with OpenGL ES 3.0, on scenes of its own.
+#[test]
+fn random_scenes_are_classified_right_by_opengl_es() {
+    classify(Api::Gles30, 1000..1008);
+}
+
+fn classify(api: Api, seeds: std::ops::Range<u64>) {
+    let Some(context) = common::context(api) else { return };
+    let mut stage = Stage::new(context.gl()).expect("a stage");
+    let scenes = seeds.end - seeds.start;
     let (mut wrong, mut squares, mut edges, mut lights) = (0, 0.0, 0, 0);
-    for seed in 0..scenes {
+    for seed in seeds {
         let mut scene = random_scene(seed, &RandomScene::default());
         // The receivers take light from each other in every other scene.
         scene.objects[..2].iter_mut().for_each(|o| o.casts_shadow = seed % 2 == 1);
@@ -45,7 +56,7 @@ fn random_scenes_are_classified_right() {
         }
     }
     let rms = (squares / edges as f64).sqrt();
-    eprintln!("{scenes} scenes, {lights} lights: {wrong} pixels wrong, rms {rms:.4} on {edges} edge pixels");
+    eprintln!("{api:?}: {scenes} scenes, {lights} lights: {wrong} pixels wrong, rms {rms:.4} on {edges} edge pixels");
     assert!(edges > 1000, "there are edges to look at");
     assert_eq!(wrong, 0, "pixels on the wrong side outside the band");
     assert!(rms <= 0.03, "rms {rms} on edge pixels");
@@ -60,10 +71,13 @@ fn pictures_are_the_traced_ones() {
     let Some(context) = common::context(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let gallery = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let files = ["balls-on-the-floor", "coloured-lights", "many-lights", "shadows-on-objects", "sun-and-spotlights"];
+    let files =
+        ["balls-on-the-floor", "coloured-lights", "many-lights", "shadows-on-objects", "sun-and-spotlights"];
     let mut scenes: Vec<_> = files
         .iter()
-        .map(|name| antumbra_scene::Scene::load(&gallery.join(name).with_extension("toml")).expect("a gallery scene"))
+        .map(|name| {
+            antumbra_scene::Scene::load(&gallery.join(name).with_extension("toml")).expect("a gallery scene")
+        })
         .collect();
     scenes.extend((100..110).map(|seed| random_scene(seed, &RandomScene::default())));
     for (n, scene) in scenes.iter().enumerate() {

@@ -8,4 +8,5 @@ pub mod real;
 pub mod shape;
 
 pub use light::Light;
+pub use plane_shadow::{PlaneFrame, PlaneShadow, ShadowKind};
 pub use shape::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle};

@@ -21,10 +21,10 @@ const EDGE: f64 = 1e-9;
 /// Measured, no shape errs at 2 and every curved or bounded one does at 1.
 const ROUNDINGS: f64 = 4.0;
 
-/// A light so near to a cone's rim, in parts of its size, is on it. The shadow there is made of a
-/// disc and a triangle that are both seen edge-on, and rounding opens a gap between them: measured,
-/// up to 5e-9.
-const ON_RIM: f64 = 1e-7;
+/// Wrong answers in float32 that are allowed for a cone, as a share: where its apex projects on the
+/// rim of its base, light and point and the cone's triangle are in one plane, which for float32 goes on
+/// before the cone. Measured: 1 case of 17 million; none of the other shapes errs in as many.
+const GRAZED_APEX: f64 = 1e-6;
 
 /// What was found for one shape.
 #[derive(Default)]
@@ -64,26 +64,28 @@ fn check(kind: u64, settings: usize) {
             };
             *(if oracle.blocks(point) { &mut dark_point } else { &mut lit_point }) = Some(point);
             let case = || format!("{point:?} under {:?} and {:?}", setting.shape, setting.light);
-            if !oracle.light_on_rim(ON_RIM * setting.size)
-                && let Some(truth) = oracle.decide(point, EDGE * setting.size)
-            {
+            if let Some(truth) = oracle.decide(point, EDGE * setting.size * oracle.magnification()) {
                 double.add(truth, blockers.block(point), case);
             }
             let coordinates = point.length() + setting.center.length() + setting.size;
-            let edge = ROUNDINGS * f64::from(f32::EPSILON) / 2.0 * coordinates;
+            let edge = ROUNDINGS * f64::from(f32::EPSILON) / 2.0 * coordinates * oracle.magnification();
             // What a blocker of the GPU does not know is the inside of a cone.
-            if !oracle.light_on_rim(edge)
-                && !(kind == CONE && oracle.may_hold(point, edge))
+            if !(kind == CONE && oracle.may_hold(point, edge))
                 && let Some(truth) = oracle.decide(point, edge)
             {
                 single.add(truth, on_gpu.iter().any(|b| b.blocks(point.as_vec3())), case);
             }
         }
     }
-    for (count, name) in [(double, "float64"), (single, "float32")] {
+    let allowed = if kind == CONE { GRAZED_APEX } else { 0.0 };
+    for (count, name, allowed) in [(double, "float64", 0.0), (single, "float32", allowed)] {
         let Count { decided, dark, wrong } = count;
         println!("{} in {name}: {decided} decided, {dark} dark, {wrong} wrong", NAMES[kind as usize]);
-        assert_eq!(wrong, 0, "{} in {name}", NAMES[kind as usize]);
+        assert!(
+            wrong as f64 <= allowed * decided as f64,
+            "{wrong} wrong: {} in {name}",
+            NAMES[kind as usize]
+        );
         assert!(decided >= 1_000_000, "a million cases a shape: {decided} in {name}");
         assert!(dark.min(decided - dark) >= decided / 10, "lit and dark: {dark} of {decided} in {name}");
     }

@@ -121,9 +121,13 @@ fn a_renderer_takes_its_objects_with_it() {
                 }
                 3..6 => {
                     let samples = Surface { samples: 4096, ..frame.surface };
-                    renderer.overlay(&Frame { surface: samples, ..frame }, Encoding::Linear).expect_err("samples");
+                    renderer
+                        .overlay(&Frame { surface: samples, ..frame }, Encoding::Linear)
+                        .expect_err("samples");
                     let attached = Surface { depth: canvas.colors[0], ..frame.surface };
-                    renderer.overlay(&Frame { surface: attached, ..frame }, Encoding::Linear).expect_err("attached");
+                    renderer
+                        .overlay(&Frame { surface: attached, ..frame }, Encoding::Linear)
+                        .expect_err("attached");
                 }
                 _ => renderer.overlay(&frame, Encoding::Linear).expect("the frame is right"),
             }
@@ -198,7 +202,9 @@ fn memory_does_not_grow_with_the_lights() {
             let now = (live(&gl.gl), sizes(gl));
             if let Some((fewer, live, sizes)) = &seen {
                 assert_eq!(now.0, *live, "objects for {count} lights and for {fewer}");
-                let bytes = |sizes: &[(u32, i32, i32)]| sizes.iter().map(|s| i64::from(s.1) * i64::from(s.2.max(1))).sum::<i64>();
+                let bytes = |sizes: &[(u32, i32, i32)]| {
+                    sizes.iter().map(|s| i64::from(s.1) * i64::from(s.2.max(1))).sum::<i64>()
+                };
                 // Buffers double: a batch of unlucky lights may need the next size.
                 let (now, then) = (bytes(&now.1), bytes(sizes));
                 assert!(now <= then + then / 10, "{now} for {count} lights, {then} for {fewer}");

@@ -151,6 +151,9 @@ pub(crate) fn texture<T: Pod>(
 pub(crate) fn read_texture<T: Pod>(gl: &glow::Context, texture: glow::Texture, size: [i32; 2]) -> Vec<T> {
     // SAFETY: the texture is of this context; the framebuffer is deleted again.
     unsafe {
+        // Mesa's llvmpipe 22.3 reads what its threads have not drawn yet where another framebuffer
+        // has been bound since.
+        gl.finish();
         let was = gl.get_parameter_framebuffer(glow::READ_FRAMEBUFFER_BINDING);
         let framebuffer = gl.create_framebuffer().expect("a framebuffer");
         gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(framebuffer));

@@ -146,12 +146,22 @@ const TEXTURES: &[(&str, u32)] = names!(
     TEXTURE_BINDING_CUBE_MAP,
 );
 
-const DESKTOP_TEXTURES: &[(&str, u32)] =
-    names!(TEXTURE_BINDING_1D, TEXTURE_BINDING_2D_MULTISAMPLE, TEXTURE_BINDING_BUFFER, TEXTURE_BINDING_RECTANGLE);
+const DESKTOP_TEXTURES: &[(&str, u32)] = names!(
+    TEXTURE_BINDING_1D,
+    TEXTURE_BINDING_2D_MULTISAMPLE,
+    TEXTURE_BINDING_BUFFER,
+    TEXTURE_BINDING_RECTANGLE
+);
 
 /// What may differ from one draw buffer to the next.
-const BLEND_OF_BUFFERS: &[(&str, u32)] =
-    names!(BLEND_DST_ALPHA, BLEND_DST_RGB, BLEND_EQUATION_ALPHA, BLEND_EQUATION_RGB, BLEND_SRC_ALPHA, BLEND_SRC_RGB);
+const BLEND_OF_BUFFERS: &[(&str, u32)] = names!(
+    BLEND_DST_ALPHA,
+    BLEND_DST_RGB,
+    BLEND_EQUATION_ALPHA,
+    BLEND_EQUATION_RGB,
+    BLEND_SRC_ALPHA,
+    BLEND_SRC_RGB
+);
 
 /// Whether draw buffers have blend functions of their own.
 pub(crate) fn has_indexed_blend(gl: &Gl) -> bool {
@@ -261,7 +271,11 @@ impl OddHost {
             for (name, switch) in SWITCHES.iter().chain(if desktop { DESKTOP_SWITCHES } else { &[] }) {
                 // Of colour encoding, which changes pictures, the host's is right.
                 if *name != "FRAMEBUFFER_SRGB" {
-                    if context.is_enabled(*switch) { context.disable(*switch) } else { context.enable(*switch) }
+                    if context.is_enabled(*switch) {
+                        context.disable(*switch)
+                    } else {
+                        context.enable(*switch)
+                    }
                 }
             }
             set_blending(gl);
@@ -274,7 +288,8 @@ impl OddHost {
         let context = &gl.gl;
         // SAFETY: settings that the context's version has.
         unsafe {
-            for (name, switch) in SWITCHES.iter().chain(if gl.is_desktop() { DESKTOP_SWITCHES } else { &[] }) {
+            for (name, switch) in SWITCHES.iter().chain(if gl.is_desktop() { DESKTOP_SWITCHES } else { &[] })
+            {
                 let on = matches!(*name, "DITHER" | "MULTISAMPLE");
                 if on { context.enable(*switch) } else { context.disable(*switch) }
             }
@@ -355,7 +370,8 @@ unsafe fn set_bindings(gl: &Gl) {
             }
         }
     };
-    let image = || texture(context, [2, 2], [glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE], &[[1u8, 2, 3, 4]; 4]);
+    let image =
+        || texture(context, [2, 2], [glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE], &[[1u8, 2, 3, 4]; 4]);
     // SAFETY: fresh objects, bound where the context's version has a place for them.
     unsafe {
         // What is created with pixels comes before odd unpacking.
@@ -372,8 +388,16 @@ unsafe fn set_bindings(gl: &Gl) {
                 context.bind_texture(target, Some(texture));
             }
             let sampler = context.create_sampler().expect("a sampler");
-            context.sampler_parameter_i32(sampler, glow::TEXTURE_MIN_FILTER, glow::LINEAR_MIPMAP_LINEAR as i32);
-            context.sampler_parameter_i32(sampler, glow::TEXTURE_COMPARE_MODE, glow::COMPARE_REF_TO_TEXTURE as i32);
+            context.sampler_parameter_i32(
+                sampler,
+                glow::TEXTURE_MIN_FILTER,
+                glow::LINEAR_MIPMAP_LINEAR as i32,
+            );
+            context.sampler_parameter_i32(
+                sampler,
+                glow::TEXTURE_COMPARE_MODE,
+                glow::COMPARE_REF_TO_TEXTURE as i32,
+            );
             context.bind_sampler(unit, Some(sampler));
         }
         context.active_texture(glow::TEXTURE0 + 6);
@@ -384,8 +408,12 @@ unsafe fn set_bindings(gl: &Gl) {
         context.enable_vertex_attrib_array(1);
         context.vertex_attrib_pointer_f32(1, 3, glow::FLOAT, false, 24, 4);
         buffer(glow::ARRAY_BUFFER, None);
-        for target in [glow::COPY_READ_BUFFER, glow::COPY_WRITE_BUFFER, glow::PIXEL_PACK_BUFFER, glow::PIXEL_UNPACK_BUFFER]
-        {
+        for target in [
+            glow::COPY_READ_BUFFER,
+            glow::COPY_WRITE_BUFFER,
+            glow::PIXEL_PACK_BUFFER,
+            glow::PIXEL_UNPACK_BUFFER,
+        ] {
             buffer(target, None);
         }
         for index in 0..4 {
@@ -457,7 +485,13 @@ unsafe fn set_blending(gl: &Gl) {
             context.color_mask_draw_buffer(1, true, false, true, false);
         }
         if has_indexed_blend(gl) {
-            context.blend_func_separate_draw_buffer(1, glow::ONE, glow::SRC_COLOR, glow::ZERO, glow::DST_ALPHA);
+            context.blend_func_separate_draw_buffer(
+                1,
+                glow::ONE,
+                glow::SRC_COLOR,
+                glow::ZERO,
+                glow::DST_ALPHA,
+            );
             context.blend_equation_separate_draw_buffer(1, glow::MIN, glow::FUNC_REVERSE_SUBTRACT);
         }
     }

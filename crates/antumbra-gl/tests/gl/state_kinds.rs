@@ -17,7 +17,8 @@ fn an_odd_host_differs_from_a_fresh_context() {
         let fresh = snapshot(gl);
         let odd_host = OddHost::new(gl, SIZE);
         let odd = snapshot(gl);
-        let same: Vec<&str> = fresh.iter().zip(&odd).filter(|(a, b)| a == b).map(|(a, _)| a.0.as_str()).collect();
+        let same: Vec<&str> =
+            fresh.iter().zip(&odd).filter(|(a, b)| a == b).map(|(a, _)| a.0.as_str()).collect();
         // Widths of lines are 1 or an error, references are of a stencil buffer; the rest has no
         // other value or is not set by `OddHost`.
         let expected = |name: &str| {
@@ -74,7 +75,10 @@ fn every_call_leaves_the_state_as_it_was() {
 
 fn depth_only<'w>(shot: &Shot<'w>) -> Frame<'w> {
     let frame = shot.frame();
-    Frame { surface: Surface { depth_format: DepthFormat::default(), ..Surface::from_depth(shot.depth) }, ..frame }
+    Frame {
+        surface: Surface { depth_format: DepthFormat::default(), ..Surface::from_depth(shot.depth) },
+        ..frame
+    }
 }
 
 /// Frames that are refused before and after the state has been touched.
@@ -140,7 +144,13 @@ fn an_odd_host_gets_the_same_picture() {
             let (odd, other, odd_masks) = draw_under(gl, true, *count);
             assert!(odd == plain, "{count} lights: the picture depends on the host's state");
             assert!(other.iter().all(|texel| *texel == [255; 4]), "the second buffer is left alone");
-            for (light, (a,b)) in masks.iter().zip(&odd_masks).enumerate() { eprintln!("{:?} {light} {:?}", gl.api, a.iter().zip(b).enumerate().filter(|(_, (a,b))| a!=b).take(5).collect::<Vec<_>>()); }
+            for (light, (a, b)) in masks.iter().zip(&odd_masks).enumerate() {
+                eprintln!(
+                    "{:?} {light} {:?}",
+                    gl.api,
+                    a.iter().zip(b).enumerate().filter(|(_, (a, b))| a != b).take(5).collect::<Vec<_>>()
+                );
+            }
             assert!(odd_masks == masks, "{count} lights: the masks depend on the host's state");
         }
     });
@@ -166,7 +176,11 @@ fn the_colour_mask_of_another_buffer_stays() {
             gl.gl.clear_buffer_f32_slice(glow::COLOR, 1, &[0.0; 4]);
         }
         let canvas = host.calm_down(gl);
-        assert!(canvas.read(1).iter().all(|t| *t == [0, 255, 0, 255]), "red and blue alone are written: {:?}", canvas.read(1)[0]);
+        assert!(
+            canvas.read(1).iter().all(|t| *t == [0, 255, 0, 255]),
+            "red and blue alone are written: {:?}",
+            canvas.read(1)[0]
+        );
     });
 }
 
@@ -193,7 +207,13 @@ fn a_surface_that_is_drawn_to_is_refused() {
         assert_eq!(refused, Err(Error::SurfaceAttached { image: "depth" }), "depth is attached");
         // SAFETY: as above.
         unsafe {
-            gl.gl.framebuffer_texture_2d(glow::FRAMEBUFFER, glow::DEPTH_ATTACHMENT, glow::TEXTURE_2D, None, 0);
+            gl.gl.framebuffer_texture_2d(
+                glow::FRAMEBUFFER,
+                glow::DEPTH_ATTACHMENT,
+                glow::TEXTURE_2D,
+                None,
+                0,
+            );
             gl.gl.framebuffer_texture_2d(
                 glow::FRAMEBUFFER,
                 glow::COLOR_ATTACHMENT1,

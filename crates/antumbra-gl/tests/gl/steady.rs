@@ -12,7 +12,8 @@ const FRAMES: usize = 100;
 
 /// Lights on their way: the same number, somewhere else.
 fn moved(lights: &[Light], step: usize) -> Vec<Light> {
-    let offset = DVec3::new((step as f64 * 0.7).sin(), (step as f64 * 0.3).cos() * 0.5, (step as f64 * 0.9).cos());
+    let offset =
+        DVec3::new((step as f64 * 0.7).sin(), (step as f64 * 0.3).cos() * 0.5, (step as f64 * 0.9).cos());
     let place = |place| match place {
         Place::Point { position } => Place::Point { position: position + offset },
         other => other,

@@ -23,7 +23,7 @@ pub(crate) fn context(api: Api) -> Option<HeadlessContext> {
 pub(crate) struct Truth {
     /// Through pixel centres; over the whole pixel where `edge`.
     pub(crate) visibility: Vec<f32>,
-    /// Pixels that see one primitive alone, and an edge of its shadow.
+    /// Pixels that see one smooth surface alone, and an edge of its shadow.
     pub(crate) edge: Vec<bool>,
     /// Pixels within one pixel of an edge of the shadow or of an object.
     pub(crate) band: Vec<bool>,
@@ -32,8 +32,11 @@ pub(crate) struct Truth {
 /// Points a side of an edge pixel's grid: 256 points know the area to about 1/16 * 1/4.
 const GRID: u32 = 16;
 
+/// Cosine of the angle by which a surface may turn within a pixel before it counts as a crease.
+const CREASE: f64 = 0.9;
+
 /// Traces one light. Pixel areas are sampled where the centres of neighbours on the same primitive
-/// differ; `cast_edges_only` leaves out pixels where the surface turns away from the light.
+/// differ.
 pub(crate) fn truth(scene: &Scene, tracer: &Tracer, light: usize, width: u32, height: u32) -> Truth {
     let centers = tracer.visibility(light, width, height, Sampling::Center { light_samples: 1 }, &|_, _| {});
     let ids = tracer.primitives_seen(width, height);
@@ -47,18 +50,22 @@ pub(crate) fn truth(scene: &Scene, tracer: &Tracer, light: usize, width: u32, he
     let area = |i: usize| {
         let (x, y) = ((i % w) as f64, (i / w) as f64);
         let (mut sum, mut count) = (0.0, 0);
+        let mut first_normal = None;
         for n in 0..GRID * GRID {
             let at = |k: u32| (f64::from(k) + 0.5) / f64::from(GRID);
             let (origin, direction) = scene.camera.ray(x + at(n % GRID), y + at(n / GRID), width, height);
             match tracer.surface(&Ray::new(origin, direction)) {
-                Some(surface) if Some(surface.primitive) == ids[i] => {
+                Some(surface)
+                    if Some(surface.primitive) == ids[i]
+                        && surface.normal.dot(*first_normal.get_or_insert(surface.normal)) > CREASE =>
+                {
                     sum += tracer.visibility_at(light, &surface, 1, 0);
                     count += 1;
                 }
                 _ => {}
             }
         }
-        // Where the pixel sees something else too, antialiasing is not the shadow's.
+        // Where the pixel sees something else too, or a crease, antialiasing is the host's.
         (count == GRID * GRID).then(|| (sum / f64::from(count)) as f32)
     };
     let (visibility, edge) = (0..w * h)

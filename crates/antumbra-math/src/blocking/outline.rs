@@ -24,7 +24,7 @@ pub enum Outline {
         /// Its radius.
         radius: f64,
     },
-    /// A ball with the light outside.
+    /// A ball with the light outside, and not touching.
     Ball {
         /// Its centre.
         center: DVec3,
@@ -36,10 +36,22 @@ pub enum Outline {
 /// Corners of the polygon drawn round a circle. More corners touch fewer pixels and cost more
 /// vertices; with 8 the polygon is 5 % larger than the circle.
 const SIDES: usize = 8;
+const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Cosine and sine of each corner's angle.
+const CORNERS: [(f64, f64); SIDES] = [
+    (1.0, 0.0),
+    (HALF, HALF),
+    (0.0, 1.0),
+    (-HALF, HALF),
+    (-1.0, 0.0),
+    (-HALF, -HALF),
+    (0.0, -1.0),
+    (HALF, -HALF),
+];
 
 impl Outline {
-    /// A polygon of three or four corners.
-    pub fn corners(corners: &[DVec3]) -> Self {
+    /// A polygon of three or four corners, not of none.
+    pub(super) fn corners(corners: &[DVec3]) -> Self {
         let count = corners.len().min(4);
         let mut all = [corners[0]; 4];
         all[..count].copy_from_slice(&corners[..count]);
@@ -78,8 +90,7 @@ fn ring(center: DVec3, axis: DVec3, radius: f64, each: &mut impl FnMut(DVec3)) {
     let u = axis.any_orthonormal_vector();
     let v = axis.cross(u);
     let around = radius / (std::f64::consts::PI / SIDES as f64).cos();
-    for i in 0..SIDES {
-        let (sin, cos) = (std::f64::consts::TAU * i as f64 / SIDES as f64).sin_cos();
+    for (cos, sin) in CORNERS {
         each(center + (u * cos + v * sin) * around);
     }
 }

@@ -34,14 +34,21 @@ pub(super) fn blockers(s: &Sphere, l: DVec4) -> Blockers {
     if !(s.radius > 0.0 && s.center.is_finite()) {
         return Blockers::NONE;
     }
-    let inside = l.w != 0.0 && (s.center - l.truncate()).length() < s.radius;
-    if inside {
+    let (center, radius) = (s.center, s.radius);
+    let to_light = if l.w == 0.0 { f64::INFINITY } else { (l.truncate() - center).length() };
+    if to_light < radius {
         return Blockers::everything();
     }
-    let (center, radius) = (s.center, s.radius);
     let blocker = SphereBlocker { center, radius, light: l.truncate(), light_w: l.w };
-    Blockers::one(Blocker::Sphere(blocker), Outline::Ball { center, radius })
+    // The circle where rays from a light on the ball touch it is a point, and no outline.
+    let outline =
+        if to_light < radius * (1.0 + TOUCHING) { Outline::Everywhere } else { Outline::Ball { center, radius } };
+    Blockers::one(Blocker::Sphere(blocker), outline)
 }
+
+/// A light so near to a ball, in radii, darkens about a half-space. Nearer than that the rays along the
+/// shadow's edge would be rounding error in float32.
+const TOUCHING: f64 = 1e-6;
 
 /// How much of the pixel a ball takes from the light.
 ///

@@ -48,10 +48,10 @@ impl Seen {
         let center = setting.point(cone.base_center);
         let rim = Ring::new(center, axis, radius);
         let apex = center + axis * height;
-        let to_light = setting.to_light(apex);
+        let to_light = setting.toward_light(apex);
         let slope = height / radius;
         let side = [radius * axis.dot(to_light), slope * rim.a.dot(to_light), slope * rim.b.dot(to_light)];
-        let base = -axis.dot(setting.to_light(center));
+        let base = -axis.dot(setting.toward_light(center));
         let usable = radius > 0.0 && height > 0.0 && axis != DVec3::ZERO && apex.is_finite();
         usable.then_some(Self { apex, axis, rim, radius, height, side, base })
     }
@@ -114,7 +114,7 @@ impl Seen {
     /// The shadow where the light, which has a position, is inside the cone or within `near` of it.
     fn touched(&self, setting: &Setting, near: f64) -> Option<PlaneShadow> {
         let [f0, fa, fb] = self.side;
-        let from_apex = setting.from_light(self.apex);
+        let from_apex = setting.seen_from_light(self.apex);
         if from_apex.length() <= near {
             // The solid angle of the cone itself: all that the base hides, the plane or not.
             let curve = project(setting, &self.rim);
@@ -128,7 +128,7 @@ impl Seen {
         }
         let mut shadow = PlaneShadow::everything();
         let mut behind = |normal: DVec3| {
-            let f = (-normal).with_z(-normal.dot(setting.from_light(DVec3::ZERO)));
+            let f = (-normal).with_z(-normal.dot(setting.seen_from_light(DVec3::ZERO)));
             shadow = shadow.and(&half_plane(f), f);
         };
         if side >= -near {

@@ -30,7 +30,7 @@ pub(super) fn disc(setting: &Setting, center: DVec3, normal: DVec3, radius: f64)
     if radius.is_nan() || radius <= 0.0 || normal == DVec3::ZERO {
         return PlaneShadow::nothing();
     }
-    let to_light = setting.to_light(center);
+    let to_light = setting.toward_light(center);
     let is_edge_on = normal.dot(to_light).abs() <= EDGE_ON * to_light.length() + slack * setting.light.w;
     let ring = Ring::new(center, normal, radius);
     if ring.top() <= 2.0 * slack {

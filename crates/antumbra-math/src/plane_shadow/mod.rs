@@ -115,6 +115,10 @@ impl PlaneShadow {
         match self.kind {
             ShadowKind::Nothing => Self::nothing(),
             ShadowKind::Everything if *bounds == Bounds::EVERYTHING => self.clone(),
+            ShadowKind::Everything if bounds.is_finite() => {
+                let corners = bounds.corners().map(|p| p.extend(1.0));
+                Self::polygon(if bounds.area() > 0.0 { Outline::polygon(&corners) } else { None })
+            }
             ShadowKind::Everything => {
                 let half_planes: Vec<DVec3> = bounds.half_planes().collect();
                 let first = half_planes.first().and_then(|&f| Outline::half_plane(f));
@@ -167,7 +171,8 @@ impl PlaneShadow {
     }
 
     /// Whether a point of the plane is in shadow: decided by the signs of the boundary's equations,
-    /// to about 1e-12 of the shadow's size. False for a point with a NaN or an infinity.
+    /// to about 1e-9 of the shadow's size next to a corner, to rounding
+    /// elsewhere. False for a point with a NaN or an infinity.
     pub fn contains(&self, point: DVec2) -> bool {
         match (self.kind, &self.outline) {
             (ShadowKind::Everything, _) => point.is_finite(),

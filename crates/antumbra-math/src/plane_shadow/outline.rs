@@ -97,11 +97,13 @@ impl Outline {
     pub(super) fn half_plane(f: DVec3) -> Option<Self> {
         let normal = f.truncate().normalize_or_zero();
         let foot = -normal * (f.z / f.truncate().length());
-        // Counterclockwise, three of the corners at infinity: no two neighbours are opposite.
+        // Counterclockwise around the foot, three of the corners at infinity: no two neighbours are
+        // opposite.
         let along = normal.perp().extend(0.0);
-        let corners = [along, foot.extend(1.0), -along, normal.extend(0.0)];
+        let corners = [along, DVec3::Z, -along, normal.extend(0.0)];
         let edges = (0..4).map(|i| Edge::Line([corners[i], corners[(i + 1) % 4]])).collect();
-        Self { edges, origin: DVec2::ZERO, scale: 1.0 }.recentered()
+        let scale = if foot == DVec2::ZERO { 1.0 } else { foot.length() };
+        (normal != DVec2::ZERO && foot.is_finite()).then_some(Self { edges, origin: foot, scale })
     }
 
     /// The part of the region where f · (x, y, 1) >= 0; `None` if there is none.

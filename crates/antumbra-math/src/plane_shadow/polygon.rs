@@ -43,7 +43,7 @@ pub(super) fn polygon(setting: &Setting, corners: &[DVec3]) -> PlaneShadow {
     }
     let shadows: Vec<DVec3> =
         between.iter().map(|&p| setting.project(p).with_z(weight(p).max(0.0))).collect();
-    let to_light = setting.to_light(first);
+    let to_light = setting.toward_light(first);
     let least = EDGE_ON * to_light.length() + slack * setting.light.w;
     if normal.dot(to_light).abs() <= least * normal.length() {
         let along = DVec2::new(normal.y, -normal.x).normalize_or_zero();

@@ -60,12 +60,12 @@ impl Setting {
     }
 
     /// The vector from `p` towards the light, times the light's homogeneous scale.
-    pub(super) fn to_light(&self, p: DVec3) -> DVec3 {
+    pub(super) fn toward_light(&self, p: DVec3) -> DVec3 {
         self.light.truncate() - p * self.light.w
     }
 
     /// The vector from the light, which must have a position, to `p`, metres.
-    pub(super) fn from_light(&self, p: DVec3) -> DVec3 {
+    pub(super) fn seen_from_light(&self, p: DVec3) -> DVec3 {
         p - self.light.truncate() / self.light.w
     }
 

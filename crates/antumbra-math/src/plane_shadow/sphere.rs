@@ -32,7 +32,7 @@ const TOUCHING: f64 = 1e-12;
 /// The shadow of a ball.
 pub(super) fn sphere(setting: &Setting, sphere: &Sphere) -> PlaneShadow {
     let (center, r) = (setting.point(sphere.center), sphere.radius);
-    let to_light = setting.to_light(center);
+    let to_light = setting.toward_light(center);
     let distance = to_light.length();
     // r / distance, and 0 for a light infinitely far away.
     let sine = r * setting.light.w / distance;
@@ -45,7 +45,7 @@ pub(super) fn sphere(setting: &Setting, sphere: &Sphere) -> PlaneShadow {
     if sine > 1.0 - TOUCHING {
         // The ball takes the light from all that is behind its tangent plane at the light.
         let inwards = -to_light / distance;
-        return half_plane(inwards.with_z(inwards.dot(setting.from_light(DVec3::ZERO))));
+        return half_plane(inwards.with_z(inwards.dot(setting.seen_from_light(DVec3::ZERO))));
     }
     if center.z + r <= setting.slack(center, r) {
         return PlaneShadow::nothing();

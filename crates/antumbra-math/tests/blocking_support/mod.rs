@@ -113,16 +113,19 @@ impl Oracle {
         !self.is_flat() && body(&grown(&self.shape, edge)).blocks(&there)
     }
 
-    /// Whether the light is on the rim of a cone, or nearer to it than `edge`.
-    pub(crate) fn light_on_rim(&self, edge: f64) -> bool {
+    /// By how much the light's place magnifies errors: next to a cone's rim, by the size of the cone
+    /// over the distance. There the shadow is made of a disc and a triangle that the light both
+    /// grazes, and rounding opens a gap between them.
+    pub(crate) fn magnification(&self) -> f64 {
         let (Shape::Cone(c), Light::Point { position } | Light::Spot { position, .. }) =
             (self.shape, self.light)
         else {
-            return false;
+            return 1.0;
         };
         let from_base = position - c.base_center;
         let height = c.axis.dot(from_base);
-        ((from_base - c.axis * height).length() - c.radius).hypot(height) <= edge
+        let to_rim = ((from_base - c.axis * height).length() - c.radius).hypot(height);
+        1.0 + c.radius / to_rim.max(1e-12 * c.radius)
     }
 
     fn is_flat(&self) -> bool {

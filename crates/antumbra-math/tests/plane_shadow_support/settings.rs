@@ -7,6 +7,7 @@ use glam::{DQuat, DVec3};
 use super::Random;
 
 /// An occluder over a plane, in the world.
+#[derive(Debug)]
 pub(crate) struct Setting {
     pub(crate) occluder: Shape,
     pub(crate) light: Light,
