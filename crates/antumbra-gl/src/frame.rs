@@ -202,7 +202,9 @@ impl Occluder {
     /// A solid cone.
     pub fn cone(base_center: impl Into<DVec3>, apex: impl Into<DVec3>, radius: f64) -> Self {
         let (base_center, apex) = (base_center.into(), apex.into());
-        let (axis, height) = (apex - base_center).normalize_and_length();
+        let along = apex - base_center;
+        let (axis, height) =
+            if along.is_finite() { along.normalize_and_length() } else { (DVec3::NAN, f64::NAN) };
         Self::new(antumbra_math::Cone { base_center, axis, radius, height }.into())
     }
 }

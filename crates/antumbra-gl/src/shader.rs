@@ -240,3 +240,6 @@ pub(crate) fn link(
         Ok(program)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -71,7 +71,8 @@ impl View {
         let near_depth = z_offset + z_scale * f64::from(if format.background > 0.5 { 0.0f32 } else { 1.0 });
         let near = inverse * DVec4::new(0.0, 0.0, near_depth, 1.0);
         let near_w = if perspective { (projection * (near / near.w)).w * 0.999 } else { 1e-6 };
-        if !near_w.is_finite() || near_w <= 0.0 {
+        let behind = perspective && near.z / near.w >= 0.0;
+        if !near_w.is_finite() || near_w <= 0.0 || behind {
             return Err(Error::BadFrame("the projection matrix has its near plane behind the eye"));
         }
         // Each of a pixel's samples stands for a part of it: the footprints are as much smaller.

@@ -245,6 +245,9 @@ unsafe fn read<T: bytemuck::Pod>(
     let bytes = PixelPackData::Slice(Some(bytemuck::cast_slice_mut(&mut pixels)));
     // SAFETY: the caller's.
     unsafe {
+        // Mesa's llvmpipe 22.3 reads what its threads have not drawn yet where another framebuffer
+        // has been bound since.
+        gl.finish();
         gl.pixel_store_i32(glow::PACK_ALIGNMENT, 4);
         gl.read_pixels(0, 0, width, height, layout, kind, bytes);
     }

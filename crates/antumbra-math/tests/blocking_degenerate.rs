@@ -46,7 +46,10 @@ fn only_what_is_between_point_and_light_blocks() {
         assert!(!shape.blocks(&light, Y * 5.0), "the shape is below the point: {shape:?}");
         assert!(!shape.blocks(&point_light(Y * 1.0), O), "the light is below the shape: {shape:?}");
         assert!(!shape.blocks(&point_light(Y * -1.0), O), "the light is below the point: {shape:?}");
-        assert!(shape.blocks(&Light::Directional { direction: -Y }, O), "parallel light from above: {shape:?}");
+        assert!(
+            shape.blocks(&Light::Directional { direction: -Y }, O),
+            "parallel light from above: {shape:?}"
+        );
         assert!(!shape.blocks(&Light::Directional { direction: Y }, O), "and from below: {shape:?}");
         // The point's mirror image about the light: where the algebra of projections wraps round.
         assert!(!shape.blocks(&light, Y * 20.0), "beyond the light: {shape:?}");
@@ -235,7 +238,9 @@ fn corners_beyond_four_and_below_three() {
 fn spoiled(bad: f64) -> Vec<(Shape, Light)> {
     let mut all = Vec::new();
     let good = point_light(Y * 5.0);
-    let v = |i: usize| if i < 3 { DVec3::select(glam::BVec3::new(i == 0, i == 1, i == 2), DVec3::splat(bad), O) } else { O };
+    let v = |i: usize| {
+        if i < 3 { DVec3::select(glam::BVec3::new(i == 0, i == 1, i == 2), DVec3::splat(bad), O) } else { O }
+    };
     for i in 0..3 {
         let light = Light::Directional { direction: -Y + v(i) };
         all.extend(each(O).map(|s| (s, light)));
@@ -290,10 +295,21 @@ fn numbers_that_are_not_finite_block_nothing() {
 #[test]
 fn finite_numbers_of_any_size_are_safe() {
     let mut random = Random(9);
-    let any = |random: &mut Random| f64::from_bits(random.bits());
+    // Any bits at all, or one of all sizes.
+    let any = |random: &mut Random| match random.choice(4) {
+        0 => f64::from_bits(random.bits()),
+        1 => random.decades(-200.0, 200.0) * if random.choice(2) == 0 { 1.0 } else { -1.0 },
+        _ => random.within(-1.0, 2.0),
+    };
     let vector = |random: &mut Random| DVec3::new(any(random), any(random), any(random));
     for _ in 0..200_000 {
-        let (a, b, c, x, y) = (vector(&mut random), vector(&mut random), vector(&mut random), any(&mut random), any(&mut random));
+        let (a, b, c, x, y) = (
+            vector(&mut random),
+            vector(&mut random),
+            vector(&mut random),
+            any(&mut random),
+            any(&mut random),
+        );
         let shapes: [Shape; 6] = [
             Sphere { center: a, radius: x }.into(),
             Disc { center: a, normal: b, radius: x }.into(),
@@ -307,7 +323,8 @@ fn finite_numbers_of_any_size_are_safe() {
             0 => point_light(vector(&mut random)),
             _ => Light::Directional { direction: vector(&mut random) },
         };
-        let footprint = Footprint { point: vector(&mut random), dx: vector(&mut random), dy: vector(&mut random) };
+        let footprint =
+            Footprint { point: vector(&mut random), dx: vector(&mut random), dy: vector(&mut random) };
         let blockers = Blockers::new(&shape, &light);
         let area = blockers.coverage(&footprint);
         assert!((0.0..=1.0).contains(&area), "{area} {shape:?} {light:?} {footprint:?}");

@@ -58,6 +58,12 @@ impl Gl {
         (self.gl.version().major, self.gl.version().minor)
     }
 
+    /// Binds a framebuffer for drawing and reading.
+    pub(crate) fn bind(&self, framebuffer: glow::Framebuffer) {
+        // SAFETY: a framebuffer of this context.
+        unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer)) };
+    }
+
     /// Everything the driver has reported since the last time: error flags, and debug messages
     /// about errors and undefined behaviour.
     pub(crate) fn complaints(&self) -> Vec<String> {

@@ -1,1 +1,131 @@
-//! x
+//! Surfaces with and without normals and ids, in every format.
+
+use crate::context::in_each_api;
+use crate::lights::{STEP, overlay};
+use crate::shot::{Shot, VIEWPORT, texture};
+use crate::world::World;
+use antumbra_gl::{DepthFormat, Encoding, Frame, NormalSpace, Normals, Renderer, Surface};
+use glam::{DMat3, DVec3};
+use glow::HasContext;
+
+/// The surface without one thing or the other.
+fn without<'w>(shot: &Shot<'w>, normals: bool, ids: bool) -> Frame<'w> {
+    let mut frame = shot.frame();
+    if !normals {
+        frame.surface.normals = None;
+    }
+    if !ids {
+        frame.surface.ids = None;
+    }
+    frame
+}
+
+/// What is off where the depth buffer has to do for everything: the fraction of pixels, away from
+/// edges. Normals are found from neighbours' depths, and are wrong where an object is but a few
+/// pixels wide; without ids, points within the depth buffer's rounding of an object's rim are in
+/// doubt.
+const DOUBT: f64 = 2e-3;
+
+/// Every kind of surface has the shadows that the ray tracer has: no acne on any shape, no detached
+/// shadows.
+#[test]
+fn every_kind_of_surface_has_the_right_shadows() {
+    in_each_api(|gl| {
+        let world = World::one_of_each();
+        let shot = Shot::new(gl, &world);
+        let truth = world.truth(&shot);
+        let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+        for (normals, ids) in [(true, true), (true, false), (false, true), (false, false)] {
+            let frame = without(&shot, normals, ids);
+            for (light, mask) in shot.masks(&mut renderer, &frame).iter().enumerate() {
+                let wrong = (0..mask.len())
+                    .filter(|&i| truth.sure[i] && truth.lights[light][i].1.max_element() > 0.0)
+                    .filter(|&i| (f32::from(mask[i]) / 255.0 - truth.lights[light][i].0).abs() > 0.5)
+                    .count();
+                let allowed = if ids { 0 } else { (mask.len() as f64 * DOUBT) as usize };
+                eprintln!("normals {normals}, ids {ids}, light {light}: {wrong} wrong");
+                assert!(wrong <= allowed, "normals {normals}, ids {ids}, light {light}: {wrong} pixels are wrong");
+            }
+            gl.assert_no_complaint("masks");
+            if normals && ids {
+                truth.assert_overlay(&overlay(gl, &mut renderer, &frame, Encoding::Linear), STEP);
+            }
+        }
+    });
+}
+
+/// An object that the light shines on does not shadow itself, seen by depth alone: the lit side of
+/// each shape stays lit, with 24 and with 16 bits of depth.
+#[test]
+fn lit_sides_stay_lit_without_ids() {
+    in_each_api(|gl| {
+        for bits in [24, 16] {
+            let world = World::one_of_each();
+            let format = DepthFormat { bits, ..DepthFormat::default() };
+            // A near plane that is not wasteful: 16 bits are few.
+            let mut camera = world.camera(VIEWPORT);
+            camera.projection.w_axis.z = -8.0;
+            let shot = Shot::with(gl, &world, camera, VIEWPORT, format);
+            let truth = world.truth(&shot);
+            let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+            for own in &world.occluders {
+                let frame = Frame { occluders: &[*own], ..without(&shot, false, false) };
+                for (light, mask) in shot.masks(&mut renderer, &frame).iter().enumerate() {
+                    let lit: Vec<usize> = (0..mask.len())
+                        .filter(|&i| truth.sure[i] && shot.seen[i].is_some_and(|s| s.primitive + 1 == own.id))
+                        // Off the terminator by three degrees: there rounding decides which side is lit.
+                        .filter(|&i| {
+                            let to_light = world.lights[light].place.vector_from(shot.seen[i].expect("seen").point);
+                            shot.seen[i].is_some_and(|s| s.normal.dot(to_light.normalize()) > 0.05)
+                        })
+                        .collect();
+                    let dark = lit.iter().filter(|&&i| mask[i] < 255).count();
+                    let allowed = (lit.len() as f64 * DOUBT) as usize;
+                    assert!(dark <= allowed, "{bits} bits, {own:?}, light {light}: {dark} of {} dark", lit.len());
+                }
+            }
+        }
+    });
+}
+
+/// World normals are as good as view normals, and 8 bits of normal are enough for antialiasing.
+#[test]
+fn normals_come_in_any_space_and_format() {
+    in_each_api(|gl| {
+        let world = World::one_of_each();
+        let shot = Shot::new(gl, &world);
+        let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+        let expected = shot.masks(&mut renderer, &shot.frame());
+        let size = [VIEWPORT[2], VIEWPORT[3]];
+        let world_normals: Vec<[f32; 4]> =
+            shot.seen.iter().map(|s| s.map_or([0.0; 4], |s| (s.normal * 3.0).as_vec3().extend(0.0).to_array())).collect();
+        let to_view = DMat3::from_mat4(shot.camera.view);
+        let bytes: Vec<[u8; 4]> = shot
+            .seen
+            .iter()
+            .map(|s| s.map_or(DVec3::ZERO, |s| to_view * s.normal))
+            .map(|n| n.extend(1.0).to_array().map(|c| (c * 127.5 + 127.5).round() as u8))
+            .collect();
+        let world_texture = texture(&gl.gl, size, [glow::RGBA32F, glow::RGBA, glow::FLOAT], &world_normals);
+        let byte_texture = texture(&gl.gl, size, [glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE], &bytes);
+        let kinds = [
+            // The same but for rounding.
+            (Normals { texture: world_texture, space: NormalSpace::World, biased: false }, 2, 0.0),
+            // A normal is off by half a degree: edges on grazing surfaces get wider or narrower.
+            (Normals { texture: byte_texture, space: NormalSpace::View, biased: true }, 25, 5e-3),
+        ];
+        for (normals, tolerance, over) in kinds {
+            let surface = Surface { normals: Some(normals), ..shot.frame().surface };
+            let masks = shot.masks(&mut renderer, &Frame { surface, ..shot.frame() });
+            let pairs = expected.iter().flatten().zip(masks.iter().flatten());
+            let off = pairs.filter(|(a, b)| a.abs_diff(**b) > tolerance).count();
+            let allowed = (expected.len() * shot.seen.len()) as f64 * over;
+            assert!(off as f64 <= allowed, "{normals:?}: {off} differ by more than {tolerance}");
+        }
+        // SAFETY: made above.
+        unsafe {
+            gl.gl.delete_texture(world_texture);
+            gl.gl.delete_texture(byte_texture);
+        }
+    });
+}

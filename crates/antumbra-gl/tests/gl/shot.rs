@@ -35,7 +35,7 @@ impl<'w> Shot<'w> {
         Self::with(gl, world, world.camera(VIEWPORT), VIEWPORT, DepthFormat::default())
     }
 
-    /// A 32-bit depth buffer, from any camera. Outside the viewport there is depth too: nonsense.
+    /// Any camera; a depth buffer of 16 or 24 bits, or of floats if it is reversed. Outside the viewport there is depth too: nonsense.
     pub(crate) fn with(
         gl: &Gl,
         world: &'w World,
@@ -48,13 +48,13 @@ impl<'w> Shot<'w> {
         let (all_width, all_height) = (x + width + x.min(7), y + height + y.min(5));
         let texels = (all_width * all_height) as usize;
         let (mut depth, mut normals, mut ids) =
-            (vec![0.3f32; texels], vec![[0.7f32; 4]; texels], vec![77u32; texels]);
+            (vec![0.3f64; texels], vec![[0.7f32; 4]; texels], vec![77u32; texels]);
         let to_view = DMat3::from_mat4(camera.view);
         for (i, seen) in seen.iter().enumerate() {
             let (px, py) = (i as i32 % width, i as i32 / width);
             let texel = ((y + py) * all_width + x + px) as usize;
             (depth[texel], normals[texel], ids[texel]) = match seen {
-                None => (format.background, [0.0; 4], 0),
+                None => (format.background.into(), [0.0; 4], 0),
                 Some(s) => {
                     let clip = camera.projection * camera.view * s.point.extend(1.0);
                     let z = clip.z / clip.w;
@@ -62,19 +62,18 @@ impl<'w> Shot<'w> {
                     let receives = world.receives[s.primitive as usize];
                     let id = (s.primitive + 1) | if receives { 0 } else { NO_SHADOW };
                     let n = (to_view * s.normal).as_vec3();
-                    (depth as f32, n.extend(0.0).to_array(), id)
+                    (depth, n.extend(0.0).to_array(), id)
                 }
             };
         }
         let size = [all_width, all_height];
-        let float_depth = [glow::DEPTH_COMPONENT32F, glow::DEPTH_COMPONENT, glow::FLOAT];
         Self {
             gl: gl.gl.clone(),
             world,
             camera,
             viewport,
             format,
-            depth: texture(&gl.gl, size, float_depth, &depth),
+            depth: depth_texture(&gl.gl, size, &format, &depth),
             normals: texture(&gl.gl, size, [glow::RGBA32F, glow::RGBA, glow::FLOAT], &normals),
             ids: texture(&gl.gl, size, [glow::R32UI, glow::RED_INTEGER, glow::UNSIGNED_INT], &ids),
             seen,
@@ -122,6 +121,20 @@ impl Drop for Shot<'_> {
             // SAFETY: made by this shot.
             unsafe { self.gl.delete_texture(texture) };
         }
+    }
+}
+
+fn depth_texture(gl: &glow::Context, size: [i32; 2], format: &DepthFormat, depth: &[f64]) -> glow::Texture {
+    let layout = glow::DEPTH_COMPONENT;
+    if format.background == 0.0 {
+        let depth: Vec<f32> = depth.iter().map(|&d| d as f32).collect();
+        texture(gl, size, [glow::DEPTH_COMPONENT32F, layout, glow::FLOAT], &depth)
+    } else if format.bits == 16 {
+        let depth: Vec<u32> = depth.iter().map(|&d| (d * f64::from(u16::MAX)).round() as u32 * 0x1_0001).collect();
+        texture(gl, size, [glow::DEPTH_COMPONENT16, layout, glow::UNSIGNED_INT], &depth)
+    } else {
+        let depth: Vec<u32> = depth.iter().map(|&d| (d * f64::from(u32::MAX)).round() as u32).collect();
+        texture(gl, size, [glow::DEPTH_COMPONENT24, layout, glow::UNSIGNED_INT], &depth)
     }
 }
 

@@ -6,8 +6,13 @@ use glam::{DVec3, DVec4};
 
 /// The ways from the light that meet a cone are those that cross its base or the triangle of its
 /// apex and the two points where planes through light and apex touch the base: that triangle
-/// divides the lit part of the lateral surface from the dark part. The papers (Avdić et al., 2013
-/// and 2017) take the ends of a diameter instead of the tangent points and lose two slivers.
+/// divides the lit part of the lateral surface from the dark part. The papers (Pljasković
+/// et al., Sphere and Cone Composite Realtime Shadows in OpenGL, 2013; Avdić et al., Real-Time
+/// Shadows in OpenGL Caused by the Presence of Multiple Light Sources, 2017) take the ends of a
+/// diameter instead of the tangent points and lose two slivers.
+///
+/// Near the rim, and that only, it is less exact than elsewhere: the light grazes base and triangle
+/// alike, and errors grow by the radius over the distance to the rim.
 ///
 /// The two leave out the part of the solid that lies before them, which no viewer outside can see:
 /// see [`holds`].
@@ -72,7 +77,8 @@ pub(super) fn holds(cone: &Cone, p: DVec4) -> bool {
 /// looks straight into the cone or the cone hides behind its base.
 ///
 /// The line from light to apex meets the base's plane in a point, kept homogeneous (`u`, `w`)
-/// because the two may be level: tangents from it touch the circle on its polar line.
+/// because the two may be level: tangents from it touch the circle on its polar line (Hartley and
+/// Zisserman, Multiple View Geometry in Computer Vision, section 2.2.3).
 pub(crate) fn tangent_points(cone: &Cone, l: DVec4) -> Option<[DVec3; 2]> {
     let from_base = l.truncate() - cone.base_center * l.w;
     let height = cone.axis.dot(from_base);

@@ -10,10 +10,16 @@
 //! | plane | [`PolygonBlocker`] without edges |
 //! | cone | its base as a [`DiscBlocker`], and the triangle of its apex and the two points where the light's tangent planes touch the base |
 //! | anything with the light inside | [`PolygonBlocker::EVERYTHING`] |
+//! | cone with the light on its surface | [`PolygonBlocker`] of the one or two tangent planes there |
 //!
 //! A point is in shadow when any blocker says so (the union). The functions are generic over
 //! [`Vector`]: float64 decides on the CPU, float32 is what the
 //! shaders of the same names in `antumbra-gl` compute, and tests hold the two together.
+//!
+//! Held against ray casts, an answer in float64 is right unless a change of the shape by 1e-9 of its
+//! size makes it another, for lights as far as 1e6 sizes. In float32 that is a change by 2.4e-7 (four
+//! roundings) of the distances of point and shape from the origin: keep the eye there. Near the rim
+//! of a cone both grow by the cone's radius over the light's distance from the rim.
 
 mod cone;
 mod coverage;
@@ -94,8 +100,9 @@ impl Blockers {
     }
 
     /// What `shape` takes of `light`. Nothing (no blocker) for shapes of zero size, flat shapes
-    /// with the light in their plane, and values that are not finite. Everything for a light
-    /// strictly inside a solid.
+    /// with the light in their plane, light from the direction zero, and values that are not finite.
+    /// Everything for a light strictly inside a solid; for one that touches a solid what lies behind
+    /// its tangent plane.
     pub fn new(shape: &Shape, light: &Light) -> Self {
         let l = light.homogeneous();
         if !(l.is_finite() && l != DVec4::ZERO && shape.is_finite()) {

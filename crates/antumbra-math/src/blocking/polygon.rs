@@ -3,7 +3,7 @@
 use super::Footprint;
 use super::coverage::{Edge, corner_coverage};
 use crate::Plane;
-use crate::real::{Real, Vector};
+use crate::real::Vector;
 use glam::{DVec3, DVec4};
 
 /// A convex polygon and the light it blocks: the points behind the polygon's own plane and on

@@ -41,8 +41,11 @@ pub(super) fn blockers(s: &Sphere, l: DVec4) -> Blockers {
     }
     let blocker = SphereBlocker { center, radius, light: l.truncate(), light_w: l.w };
     // The circle where rays from a light on the ball touch it is a point, and no outline.
-    let outline =
-        if to_light < radius * (1.0 + TOUCHING) { Outline::Everywhere } else { Outline::Ball { center, radius } };
+    let outline = if to_light < radius * (1.0 + TOUCHING) {
+        Outline::Everywhere
+    } else {
+        Outline::Ball { center, radius }
+    };
     Blockers::one(Blocker::Sphere(blocker), outline)
 }
 

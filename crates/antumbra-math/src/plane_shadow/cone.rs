@@ -92,12 +92,12 @@ impl Seen {
 
     /// The shadow of the line from the rim's point at angle `t` to the apex, as far as it is above the
     /// plane and below the light.
-    fn generator(&self, setting: &Setting, t: f64) -> Option<Edge> {
+    fn generator(&self, setting: &Setting, rim_curve: &Curve, t: f64) -> Option<Edge> {
         let rim = self.rim_at(t);
         let snap = |p: DVec3| if p.z.abs() <= IDEAL { p.with_z(0.0) } else { p };
         let (from, to) = match (rim.z >= 0.0, self.apex.z >= 0.0) {
-            (true, true) => (setting.project(rim), setting.project(self.apex)),
-            (true, false) => (setting.project(rim), self.crossing(t)),
+            (true, true) => (rim_curve.snapped(setting.project(rim)), setting.project(self.apex)),
+            (true, false) => (rim_curve.snapped(setting.project(rim)), self.crossing(t)),
             (false, true) => (self.crossing(t), setting.project(self.apex)),
             (false, false) => return None,
         };
@@ -174,7 +174,7 @@ pub(super) fn cone(setting: &Setting, cone: &Cone) -> PlaneShadow {
     let apex_in_plane = apex.z.abs() <= 2.0 * slack;
     let line = |t: f64| {
         let below = apex_in_plane && seen.rim_at(t).z < 0.0;
-        if below { None } else { seen.generator(setting, t).map(|line| vec![line]) }
+        if below { None } else { seen.generator(setting, &rim_curve, t).map(|line| vec![line]) }
     };
     let lines: Vec<Vec<Edge>> = lines.filter_map(line).collect();
 

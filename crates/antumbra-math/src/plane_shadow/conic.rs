@@ -125,15 +125,24 @@ impl Curve {
 
     /// The same with the arcs' ends as `end` computes them.
     pub(super) fn chains_between(&self, angles: &Angles, end: impl Fn(f64) -> DVec3) -> Vec<Vec<Edge>> {
-        let at_infinity = if self.kind() == ShadowKind::Parabola { 2.0 * PARABOLIC } else { IDEAL };
-        let noise = IDEAL + at_infinity * (self.c.z.abs() + self.a.z.abs());
-        let snap = |p: DVec3| if p.z <= noise { p.with_z(0.0) } else { p };
         let arc = |(from, to): (f64, f64)| {
             let (half, middle) = (0.5 * (to - from), 0.5 * (to + from));
             let control = self.c * half.cos() + self.a * middle.cos() + self.b * middle.sin();
-            Edge::Arc([snap(end(from)), snap(control), snap(end(to))])
+            let control = match self.kind() {
+                // The tangents at a parabola's point at infinity are there too.
+                ShadowKind::Parabola => self.snapped(control),
+                _ => control.with_z(control.z.max(0.0)),
+            };
+            Edge::Arc([self.snapped(end(from)), control, self.snapped(end(to))])
         };
         angles.quarters().into_iter().map(|span| span.into_iter().map(arc).collect()).collect()
+    }
+
+    /// A point of the curve; at infinity, if it was meant to be.
+    pub(super) fn snapped(&self, p: DVec3) -> DVec3 {
+        let fraction = if self.kind() == ShadowKind::Parabola { 2.0 * PARABOLIC } else { IDEAL };
+        let noise = IDEAL + fraction * (self.c.z.abs() + self.a.z.abs());
+        if p.z.abs() <= noise { p.with_z(0.0) } else { p }
     }
 
     /// The equation.

@@ -27,8 +27,9 @@
 //!   plane, a half-plane; on a cone's rim, what is behind both; in its apex, what is in the cone.
 //! - A flat occluder seen edge-on blocks no light: its shadow is a segment, which contains no point.
 //! - Occluders of no extent (radius, height or area zero), those that only touch the plane from
-//!   beyond, flat ones that lie in it, and anything with an infinity or a NaN: nothing. A cone of
-//!   height zero is a disc.
+//!   beyond or the light's height from above, flat ones that lie in the plane, and anything with an
+//!   infinity or a NaN: nothing. A cone of height zero is a disc. A shadow narrower than the rounding
+//!   of its coordinates is none.
 //! - A spot's cone plays no part: outside it no light arrives, blocked or not.
 //!
 //! Points on the very edge may count either way. Lengths from 1e-60 to 1e60 metres are safe from
@@ -205,6 +206,7 @@ impl PlaneShadow {
     fn polygon(outline: Option<Outline>) -> Self {
         match &outline {
             None => Self::nothing(),
+            Some(region) if region.is_collapsed() => Self::nothing(),
             Some(region) if region.is_curved() => Self { kind: ShadowKind::Hull, outline, curve: None },
             Some(_) => Self { kind: ShadowKind::Polygon, outline, curve: None },
         }
@@ -218,7 +220,7 @@ impl PlaneShadow {
     /// The inside of a conic, of which `arcs` are the parts in front of the light.
     fn conic_region(curve: Curve, arcs: &[Vec<Edge>]) -> Self {
         let outline = Outline::from_chains(arcs);
-        if outline.is_none() {
+        if outline.as_ref().is_none_or(Outline::is_collapsed) {
             return Self::nothing();
         }
         Self { kind: curve.kind(), outline, curve: Some(curve) }

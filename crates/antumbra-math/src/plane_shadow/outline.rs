@@ -142,9 +142,24 @@ impl Outline {
         let p = ((point - self.origin) / self.scale).extend(1.0);
         // Directions of edges this short, less than a thousand times the rounding of the corners, are
         // unknown, and next to nothing lies outside them that does not lie outside others.
-        let rounding = f64::EPSILON * (1.0 + self.origin.length() / self.scale);
-        let short = SHORT.max(1e3 * rounding).min(1e-3);
+        let short = SHORT.max(1e3 * self.rounding()).min(1e-3);
         p.is_finite() && self.edges.iter().all(|edge| edge.admits(p, short))
+    }
+
+    /// The rounding of the coordinates that the region's own were computed from, in units of its own.
+    fn rounding(&self) -> f64 {
+        f64::EPSILON * (1.0 + self.origin.length() / self.scale)
+    }
+
+    /// Whether all of the boundary is seen from inside along one line, to rounding: an inside that
+    /// only rounding has opened.
+    pub(super) fn is_collapsed(&self) -> bool {
+        let sine = |a: DVec3, b: DVec3| a.truncate().perp_dot(b.truncate()).abs() / (a.length() * b.length());
+        let widest = self.edges.iter().flat_map(|edge| {
+            let middle = edge.at(0.5);
+            [sine(edge.start(), middle), sine(middle, edge.end())]
+        });
+        widest.fold(0.0, f64::max) <= 4.0 * self.rounding()
     }
 
     /// Whether a part of the boundary bends.

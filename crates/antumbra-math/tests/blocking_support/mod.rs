@@ -155,6 +155,7 @@ impl Oracle {
 }
 
 /// A shape, a light and the length they are measured by.
+#[derive(Debug)]
 pub(crate) struct Setting {
     pub(crate) shape: Shape,
     pub(crate) light: Light,
