@@ -7,7 +7,7 @@ use glow::HasContext;
 pub(crate) const UNITS: usize = 5;
 
 /// The switches that antumbra sets, with the value it wants.
-const SWITCHES: [(u32, bool, bool); 12] = [
+const SWITCHES: [(u32, bool, bool); 13] = [
     // (switch, wanted, desktop OpenGL only)
     (glow::DEPTH_TEST, false, false),
     (glow::STENCIL_TEST, false, false),
@@ -17,6 +17,7 @@ const SWITCHES: [(u32, bool, bool); 12] = [
     (glow::RASTERIZER_DISCARD, false, false),
     (glow::SAMPLE_ALPHA_TO_COVERAGE, false, false),
     (glow::SAMPLE_COVERAGE, false, false),
+    (glow::SAMPLE_ALPHA_TO_ONE, false, true),
     (glow::SAMPLE_MASK, false, true),
     (glow::COLOR_LOGIC_OP, false, true),
     (glow::POLYGON_SMOOTH, false, true),

@@ -56,7 +56,9 @@ fn classify(api: Api, seeds: std::ops::Range<u64>) {
         }
     }
     let rms = (squares / edges as f64).sqrt();
-    eprintln!("{api:?}: {scenes} scenes, {lights} lights: {wrong} pixels wrong, rms {rms:.4} on {edges} edge pixels");
+    eprintln!(
+        "{api:?}: {scenes} scenes, {lights} lights: {wrong} pixels wrong, rms {rms:.4} on {edges} edge pixels"
+    );
     assert!(edges > 1000, "there are edges to look at");
     assert_eq!(wrong, 0, "pixels on the wrong side outside the band");
     assert!(rms <= 0.03, "rms {rms} on edge pixels");

@@ -106,7 +106,10 @@ fn the_background_is_left_alone() {
         let picture = canvas.read(0);
         let count = (0..picture.len()).filter(|&i| sky(i)).count();
         assert!(count > 1000, "{count} pixels of background to look at");
-        assert!((0..picture.len()).filter(|&i| sky(i)).all(|i| picture[i] == [255; 4]), "background has changed");
+        assert!(
+            (0..picture.len()).filter(|&i| sky(i)).all(|i| picture[i] == [255; 4]),
+            "background has changed"
+        );
         for mask in shot.masks(&mut renderer, &shot.frame()) {
             assert!((0..mask.len()).filter(|&i| sky(i)).all(|i| mask[i] == 255), "background is lit");
         }

@@ -79,7 +79,8 @@ fn matrices_in_float32_do() {
         let mut frame = shot.frame();
         frame.camera = Camera::new(frame.camera.view.as_mat4(), frame.camera.projection.as_mat4());
         let rounded = shot.masks(&mut renderer, &frame);
-        let off = exact.iter().flatten().zip(rounded.iter().flatten()).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+        let off =
+            exact.iter().flatten().zip(rounded.iter().flatten()).filter(|(a, b)| a.abs_diff(**b) > 1).count();
         assert!(off <= shot.seen.len() * exact.len() / 1000, "{off} of {} differ", shot.seen.len());
     });
 }
@@ -103,8 +104,12 @@ fn far_from_the_origin_shadows_stay_sharp() {
         let near_masks = near_shot.masks(&mut renderer, &near_shot.frame());
         let far_shot = Shot::new(gl, &far);
         let far_masks = far_shot.masks(&mut renderer, &far_shot.frame());
-        let off =
-            near_masks.iter().flatten().zip(far_masks.iter().flatten()).filter(|(a, b)| a.abs_diff(**b) > 2).count();
+        let off = near_masks
+            .iter()
+            .flatten()
+            .zip(far_masks.iter().flatten())
+            .filter(|(a, b)| a.abs_diff(**b) > 2)
+            .count();
         // Which object a pixel on a silhouette sees is decided by rounding: 1e-10 of the distance.
         assert!(off <= 10, "{off} pixels differ by more than two steps");
     });

@@ -44,7 +44,10 @@ fn every_kind_of_surface_has_the_right_shadows() {
                     .count();
                 let allowed = if ids { 0 } else { (mask.len() as f64 * DOUBT) as usize };
                 eprintln!("normals {normals}, ids {ids}, light {light}: {wrong} wrong");
-                assert!(wrong <= allowed, "normals {normals}, ids {ids}, light {light}: {wrong} pixels are wrong");
+                assert!(
+                    wrong <= allowed,
+                    "normals {normals}, ids {ids}, light {light}: {wrong} pixels are wrong"
+                );
             }
             gl.assert_no_complaint("masks");
             if normals && ids {
@@ -75,13 +78,18 @@ fn lit_sides_stay_lit_without_ids() {
                         .filter(|&i| truth.sure[i] && shot.seen[i].is_some_and(|s| s.primitive + 1 == own.id))
                         // Off the terminator by three degrees: there rounding decides which side is lit.
                         .filter(|&i| {
-                            let to_light = world.lights[light].place.vector_from(shot.seen[i].expect("seen").point);
+                            let to_light =
+                                world.lights[light].place.vector_from(shot.seen[i].expect("seen").point);
                             shot.seen[i].is_some_and(|s| s.normal.dot(to_light.normalize()) > 0.05)
                         })
                         .collect();
                     let dark = lit.iter().filter(|&&i| mask[i] < 255).count();
                     let allowed = (lit.len() as f64 * DOUBT) as usize;
-                    assert!(dark <= allowed, "{bits} bits, {own:?}, light {light}: {dark} of {} dark", lit.len());
+                    assert!(
+                        dark <= allowed,
+                        "{bits} bits, {own:?}, light {light}: {dark} of {} dark",
+                        lit.len()
+                    );
                 }
             }
         }
@@ -97,8 +105,11 @@ fn normals_come_in_any_space_and_format() {
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         let expected = shot.masks(&mut renderer, &shot.frame());
         let size = [VIEWPORT[2], VIEWPORT[3]];
-        let world_normals: Vec<[f32; 4]> =
-            shot.seen.iter().map(|s| s.map_or([0.0; 4], |s| (s.normal * 3.0).as_vec3().extend(0.0).to_array())).collect();
+        let world_normals: Vec<[f32; 4]> = shot
+            .seen
+            .iter()
+            .map(|s| s.map_or([0.0; 4], |s| (s.normal * 3.0).as_vec3().extend(0.0).to_array()))
+            .collect();
         let to_view = DMat3::from_mat4(shot.camera.view);
         let bytes: Vec<[u8; 4]> = shot
             .seen

@@ -207,7 +207,11 @@ fn memory_does_not_grow_with_the_lights() {
             assert_eq!(objects, first_objects, "objects for {count} lights");
             assert_eq!(textures, first_textures, "sizes of textures for {count} lights");
             let [bytes, first] = [buffers, first_buffers].map(|b| b.iter().sum::<i32>());
-            assert!(first > 0 && bytes <= 2 * first, "{bytes} bytes for {count} lights, {first} for {}", counts[0]);
+            assert!(
+                first > 0 && bytes <= 2 * first,
+                "{bytes} bytes for {count} lights, {first} for {}",
+                counts[0]
+            );
         }
     });
 }

@@ -6,7 +6,9 @@
 //! ray tracer, which shares no code with the renderer.
 
 mod context;
+mod odd_host;
 mod shot;
+mod snapshot;
 mod world;
 
 mod bad_frames;
@@ -17,7 +19,6 @@ mod lights;
 mod occluders;
 mod samples;
 mod state;
-mod state_kinds;
 mod steady;
 mod twins;
 mod viewports;

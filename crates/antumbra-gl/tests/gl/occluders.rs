@@ -117,10 +117,8 @@ fn a_light_inside_an_occluder_is_dark() {
         let shot = Shot::new(gl, &world);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         let lights = [Light::point(DVec3::Y * 4.0, Vec3::ONE)];
-        let solids = [
-            Occluder::sphere(DVec3::Y * 4.1, 0.5),
-            Occluder::cone(DVec3::Y * 3.9, DVec3::Y * 5.0, 1.0),
-        ];
+        let solids =
+            [Occluder::sphere(DVec3::Y * 4.1, 0.5), Occluder::cone(DVec3::Y * 3.9, DVec3::Y * 5.0, 1.0)];
         for solid in solids {
             let frame = Frame { lights: &lights, occluders: &[solid.with_id(99)], ..shot.frame() };
             let masks = shot.masks(&mut renderer, &frame);
@@ -173,7 +171,10 @@ fn parts_of_one_solid_do_not_shadow_each_other() {
 fn two_thousand_occluders_are_a_frame() {
     in_each_api(|gl| {
         let start = ONE_OF_EACH.find("[[object]]").expect("an object");
-        let mut text = format!("{}[[object]]\nname = \"floor\"\nshape = {{ type = \"plane\" }}\n", &ONE_OF_EACH[..start]);
+        let mut text = format!(
+            "{}[[object]]\nname = \"floor\"\nshape = {{ type = \"plane\" }}\n",
+            &ONE_OF_EACH[..start]
+        );
         let mut random = fastrand::Rng::with_seed(5);
         for i in 0..2000 {
             let mut within = |low: f64, high: f64| low + random.f64() * (high - low);
@@ -184,8 +185,11 @@ fn two_thousand_occluders_are_a_frame() {
                 1 => format!("type = \"disc\", radius = {r}"),
                 _ => format!("type = \"cone\", radius = {r}, height = {}", 2.0 * r),
             };
-            write!(text, "[[object]]\nname = \"o{i}\"\nshape = {{ {shape} }}\ntranslation = [{x}, {y}, {z}]\n")
-                .expect("writing to a string");
+            write!(
+                text,
+                "[[object]]\nname = \"o{i}\"\nshape = {{ {shape} }}\ntranslation = [{x}, {y}, {z}]\n"
+            )
+            .expect("writing to a string");
         }
         let world = World::parse(&text);
         // Pixels small beside the shadows.

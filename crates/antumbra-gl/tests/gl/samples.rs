@@ -1,7 +1,7 @@
 //! Multisampled surfaces: every sample is a pixel of its own.
 
 use crate::context::{Gl, in_each_api};
-use crate::lights::{STEP, overlay};
+use crate::lights::{STEP, many_lights, overlay};
 use crate::shot::{Shot, VIEWPORT, read_texture, texture};
 use crate::world::World;
 use antumbra_gl::{Camera, DepthFormat, Encoding, Frame, NormalSpace, Normals, Renderer, Surface};
@@ -16,7 +16,14 @@ const HEADER: &str = "#version 330 core\n#extension GL_ARB_sample_shading : requ
 
 /// One triangle over the whole of `target`, of this program's fragment shader, with textures on units
 /// from 0 on.
-fn draw(gl: &Gl, fragment: &str, target: glow::Framebuffer, size: [i32; 2], textures: &[(u32, glow::Texture)], sample: i32) {
+fn draw(
+    gl: &Gl,
+    fragment: &str,
+    target: glow::Framebuffer,
+    size: [i32; 2],
+    textures: &[(u32, glow::Texture)],
+    sample: i32,
+) {
     let context = &gl.gl;
     let vertex = "#version 330 core\nvoid main() { gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0); }";
     // SAFETY: objects are made, used and deleted in this context.
@@ -35,7 +42,10 @@ fn draw(gl: &Gl, fragment: &str, target: glow::Framebuffer, size: [i32; 2], text
         for (unit, &(kind, texture)) in textures.iter().enumerate() {
             context.active_texture(glow::TEXTURE0 + unit as u32);
             context.bind_texture(kind, Some(texture));
-            context.uniform_1_i32(context.get_uniform_location(program, &format!("u_{unit}")).as_ref(), unit as i32);
+            context.uniform_1_i32(
+                context.get_uniform_location(program, &format!("u_{unit}")).as_ref(),
+                unit as i32,
+            );
         }
         context.active_texture(glow::TEXTURE0);
         context.uniform_1_i32(context.get_uniform_location(program, "u_sample").as_ref(), sample);
@@ -122,7 +132,14 @@ fn surface(gl: &Gl, shots: &[Shot<'_>]) -> Surface {
     let (textures, framebuffer) = multisampled(gl, SIZE, &formats);
     // A sample a texture: of each shot its depth, normals and ids.
     let samplers: String = (0..shots.len())
-        .map(|i| format!("uniform sampler2D u_{}; uniform sampler2D u_{}; uniform usampler2D u_{};\n", 3 * i, 3 * i + 1, 3 * i + 2))
+        .map(|i| {
+            format!(
+                "uniform sampler2D u_{}; uniform sampler2D u_{}; uniform usampler2D u_{};\n",
+                3 * i,
+                3 * i + 1,
+                3 * i + 2
+            )
+        })
         .collect();
     let cases: String = (0..shots.len())
         .map(|i| {
@@ -158,6 +175,14 @@ fn shifted(camera: &Camera, [x, y]: [f64; 2]) -> Camera {
     Camera { view: camera.view, projection: shift * camera.projection }
 }
 
+/// A host that makes coverage of alpha, and alpha one: both act on multisampled targets alone.
+fn alpha_switches(gl: &Gl, on: bool) {
+    for switch in [glow::SAMPLE_ALPHA_TO_ONE, glow::SAMPLE_ALPHA_TO_COVERAGE] {
+        // SAFETY: switches of OpenGL.
+        unsafe { if on { gl.gl.enable(switch) } else { gl.gl.disable(switch) } };
+    }
+}
+
 #[test]
 fn every_sample_has_its_own_shadows() {
     in_each_api(|gl| {
@@ -165,7 +190,8 @@ fn every_sample_has_its_own_shadows() {
         if renderer.caps().max_samples < SAMPLES as u32 {
             return; // a refusal has a test of its own
         }
-        let world = World::one_of_each();
+        // Four lights: the last one's mask is the alpha channel.
+        let world = many_lights(4);
         let camera = world.camera(VIEWPORT);
         let shots: Vec<Shot<'_>> = sample_positions(gl)
             .into_iter()
@@ -179,7 +205,9 @@ fn every_sample_has_its_own_shadows() {
         renderer.masks(&depth_only, |_| {}).expect("the frame is right");
         gl.assert_no_complaint("depth alone");
         let textures = Cell::new(None);
+        alpha_switches(gl, true);
         renderer.masks(&frame, |batch| textures.set(Some(batch.textures))).expect("the frame is right");
+        alpha_switches(gl, false);
         gl.assert_no_complaint("masks");
         let textures = textures.take().expect("one batch");
         for (sample, shot) in shots.iter().enumerate() {
@@ -190,22 +218,14 @@ fn every_sample_has_its_own_shadows() {
                 truth.assert_mask(light, &mask);
             }
         }
-        // The overlay, sample by sample, and in a host that has alpha forced to one.
         let (colors, canvas) = multisampled(gl, SIZE, &[glow::RGBA8]);
-        // SAFETY: clears the bound framebuffer, sets switches.
-        unsafe {
-            gl.gl.clear_buffer_f32_slice(glow::COLOR, 0, &[1.0; 4]);
-            gl.gl.enable(glow::SAMPLE_ALPHA_TO_ONE);
-            gl.gl.enable(glow::SAMPLE_ALPHA_TO_COVERAGE);
-        }
+        // SAFETY: clears the bound framebuffer.
+        unsafe { gl.gl.clear_buffer_f32_slice(glow::COLOR, 0, &[1.0; 4]) };
         gl.bind(canvas);
+        alpha_switches(gl, true);
         renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
         gl.assert_no_complaint("the overlay");
-        // SAFETY: switches off what was switched on.
-        unsafe {
-            gl.gl.disable(glow::SAMPLE_ALPHA_TO_ONE);
-            gl.gl.disable(glow::SAMPLE_ALPHA_TO_COVERAGE);
-        }
+        alpha_switches(gl, false);
         let mut resolved = vec![Vec4::ZERO; shots[0].seen.len()];
         for (sample, shot) in shots.iter().enumerate() {
             let texels = read_sample(gl, colors[0], SIZE, sample as i32);

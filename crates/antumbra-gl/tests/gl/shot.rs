@@ -130,7 +130,8 @@ fn depth_texture(gl: &glow::Context, size: [i32; 2], format: &DepthFormat, depth
         let depth: Vec<f32> = depth.iter().map(|&d| d as f32).collect();
         texture(gl, size, [glow::DEPTH_COMPONENT32F, layout, glow::FLOAT], &depth)
     } else if format.bits == 16 {
-        let depth: Vec<u32> = depth.iter().map(|&d| (d * f64::from(u16::MAX)).round() as u32 * 0x1_0001).collect();
+        let depth: Vec<u32> =
+            depth.iter().map(|&d| (d * f64::from(u16::MAX)).round() as u32 * 0x1_0001).collect();
         texture(gl, size, [glow::DEPTH_COMPONENT16, layout, glow::UNSIGNED_INT], &depth)
     } else {
         let depth: Vec<u32> = depth.iter().map(|&d| (d * f64::from(u32::MAX)).round() as u32).collect();

@@ -24,12 +24,18 @@ const ROW: usize = 64;
 /// `None` where float targets are missing.
 fn on_gpu<const K: usize>(gl: &Gl, parts: &[&str], body: &str, inputs: &[[Vec4; K]]) -> Option<Vec<Vec4>> {
     let context = &gl.gl;
-    if !gl.is_desktop() && gl.version() < (3, 2) && !context.supported_extensions().contains("GL_EXT_color_buffer_float") {
+    if !gl.is_desktop()
+        && gl.version() < (3, 2)
+        && !context.supported_extensions().contains("GL_EXT_color_buffer_float")
+    {
         eprintln!("SKIPPED: no floating-point targets");
         return None;
     }
-    let header =
-        if gl.is_desktop() { "#version 330 core\n" } else { include_str!("../../src/shaders/header_300es.glsl") };
+    let header = if gl.is_desktop() {
+        "#version 330 core\n"
+    } else {
+        include_str!("../../src/shaders/header_300es.glsl")
+    };
     let prelude = format!(
         "uniform highp sampler2D u_in;\n#define K {K}\n\
          #define INPUT(k) texelFetch(u_in, ivec2(int(gl_FragCoord.x) * K + (k), int(gl_FragCoord.y)), 0)\n\
@@ -96,7 +102,13 @@ fn assert_equal(what: &str, gpu: &[f32], cpu: &[f32], close: f32, over: f64) {
     eprintln!("{what}: {} of {} off, {between} partial", off.len(), cpu.len());
     assert!(between * 20 > cpu.len(), "{what}: {between} results of {} are between 0 and 1", cpu.len());
     let allowed = (cpu.len() as f64 * over) as usize;
-    assert!(off.len() <= allowed, "{what}: {} of {} differ: {:?}", off.len(), cpu.len(), &off[..off.len().min(5)]);
+    assert!(
+        off.len() <= allowed,
+        "{what}: {} of {} differ: {:?}",
+        off.len(),
+        cpu.len(),
+        &off[..off.len().min(5)]
+    );
 }
 
 struct Random(fastrand::Rng);
@@ -165,7 +177,9 @@ fn half_plane_coverage_is_its_twin() {
             .collect();
         // Edges and corners of the cases.
         let few = [0.0, -0.0, 0.25, 0.5, -0.5, 1.0, 1e-20, 1e20];
-        inputs.extend(few.iter().flat_map(|&v| few.iter().flat_map(move |&x| few.map(|y| [Vec4::new(v, x, y, 0.0)]))));
+        inputs.extend(
+            few.iter().flat_map(|&v| few.iter().flat_map(move |&x| few.map(|y| [Vec4::new(v, x, y, 0.0)]))),
+        );
         let body = "vec4 i = INPUT(0); o_out = vec4(half_plane_coverage(i.x, i.y, i.z));";
         let Some(gpu) = on_gpu(gl, &[COVERAGE], body, &inputs) else { return };
         let cpu: Vec<f32> = inputs.iter().map(|[i]| half_plane_coverage(i.x, i.y, i.z)).collect();
@@ -188,7 +202,11 @@ fn screen_footprint_is_its_twin() {
                 normal = normal.cross(point).normalize(); // edge-on
             }
             let perspective = (i % 2) as f32;
-            inputs.push([point.as_vec3().extend(perspective), normal.as_vec3().extend(0.0), Vec4::new(0.01, 0.02, 0.0, 0.0)]);
+            inputs.push([
+                point.as_vec3().extend(perspective),
+                normal.as_vec3().extend(0.0),
+                Vec4::new(0.01, 0.02, 0.0, 0.0),
+            ]);
         }
         let part = |axis: &str| {
             format!(
@@ -219,7 +237,8 @@ fn corner_coverage_is_its_twin() {
         let mut inputs = Vec::new();
         let mut cpu = Vec::new();
         for i in 0..20_000 {
-            let mut edge = || Vec4::new(random.small() as f32, random.small() as f32, 0.0, random.small() as f32);
+            let mut edge =
+                || Vec4::new(random.small() as f32, random.small() as f32, 0.0, random.small() as f32);
             let (a, mut b) = (edge(), edge());
             match i % 16 {
                 0 => b = Vec4::new(a.x, a.y, 0.0, b.w),   // the same way
@@ -271,7 +290,8 @@ fn blockers_are_their_twins() {
                     if exact.blocks(lit) != exact.blocks(dark) {
                         for _ in 0..random.0.u32(3..9) {
                             let middle = (lit + dark) * 0.5;
-                            let half = if exact.blocks(middle) == exact.blocks(lit) { &mut lit } else { &mut dark };
+                            let half =
+                                if exact.blocks(middle) == exact.blocks(lit) { &mut lit } else { &mut dark };
                             *half = middle;
                         }
                     }
@@ -288,7 +308,9 @@ fn blockers_are_their_twins() {
         // Units in the last place of coordinates of ten metres are some micrometres, a thousandth of
         // the smaller footprints; for points without extent they decide between 0 and 1, and in a
         // grazing shadow they are stretched.
-        for (kind, (name, source)) in [("sphere", SPHERE), ("disc", DISC), ("polygon", POLYGON)].iter().enumerate() {
+        for (kind, (name, source)) in
+            [("sphere", SPHERE), ("disc", DISC), ("polygon", POLYGON)].iter().enumerate()
+        {
             let Some(gpu) = on_gpu(gl, &[COVERAGE, SURFACE, source], body, &inputs[kind]) else { return };
             let gpu: Vec<f32> = gpu.iter().map(|r| r.x).collect();
             assert_equal(name, &gpu, &cpu[kind], 1e-3, 1e-3);
@@ -308,7 +330,13 @@ fn irradiance_is_its_twin() {
                 1 => Light::directional(random.unit(), color * 0.1),
                 _ => {
                     let outer = random.within(0.05, 1.5) as f32;
-                    Light::spot(random.vector(8.0), random.unit(), outer * random.within(0.0, 1.0) as f32, outer, color)
+                    Light::spot(
+                        random.vector(8.0),
+                        random.unit(),
+                        outer * random.within(0.0, 1.0) as f32,
+                        outer,
+                        color,
+                    )
                 }
             };
             if i % 5 == 0 {
@@ -333,6 +361,12 @@ fn irradiance_is_its_twin() {
         eprintln!("irradiance: {} of {} off", off.len(), cpu.len());
         let lit = cpu.iter().filter(|e| e.max_element() > 0.0).count();
         assert!(lit > cpu.len() / 4, "{lit} are lit");
-        assert!(off.len() <= cpu.len() / 1000, "{} of {} differ: {:?}", off.len(), cpu.len(), &off[..off.len().min(5)]);
+        assert!(
+            off.len() <= cpu.len() / 1000,
+            "{} of {} differ: {:?}",
+            off.len(),
+            cpu.len(),
+            &off[..off.len().min(5)]
+        );
     });
 }

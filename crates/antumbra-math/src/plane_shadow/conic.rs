@@ -6,9 +6,10 @@ use super::ShadowKind;
 use super::angles::Angles;
 use super::edge::Edge;
 
-/// Conics this close to a parabola, as a fraction of their weight at the vertex, are made parabolas.
-/// Rounding leaves 1e-16 of a light that stands exactly as high as the top of a ball; what changes
-/// lies beyond 1e12 times the size of the shadow's near end.
+/// Conics this close to a parabola, as a fraction of their weight at the vertex, are made parabolas,
+/// and those that reach no more than this in front of the light do not. Rounding leaves 1e-16 of a
+/// light that stands exactly as high as the top of a ball or its bottom; what changes lies beyond 1e12
+/// times the size of the shadow's near end.
 const PARABOLIC: f64 = 1e-12;
 
 /// Weights 1 - h/H below this are zero, and the shadow at infinity: rounding leaves 1e-16 of a point
@@ -112,8 +113,13 @@ impl Curve {
         }
     }
 
-    /// The angles where the weight is not negative.
+    /// The angles where the weight is not negative; none if the curve only touches the light's height
+    /// from above.
     pub(super) fn in_front(&self) -> Angles {
+        let swing = self.a.z.abs();
+        if self.c.z + swing <= IDEAL + PARABOLIC * (self.c.z.abs() + swing) {
+            return Angles::none();
+        }
         Angles::where_nonnegative(self.c.z, self.a.z, 0.0)
     }
 
