@@ -6,7 +6,7 @@ use glow::HasContext;
 /// How much of antumbra a context can run; each tier does what the ones before it do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Tier {
-    /// OpenGL ES 3.0, WebGL 2: masks, and the overlay for up to [`crate::BATCH_LIGHTS`] lights.
+    /// OpenGL ES 3.0: masks, and the overlay for up to [`crate::BATCH_LIGHTS`] lights.
     Es3,
     /// The same with floating-point render targets: the overlay for any number of lights.
     Es3Float,

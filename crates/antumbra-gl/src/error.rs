@@ -6,7 +6,7 @@
 #[non_exhaustive]
 pub enum Error {
     /// The context is older than OpenGL 3.3 or OpenGL ES 3.0.
-    #[error("OpenGL 3.3, OpenGL ES 3.0 or WebGL 2 is needed, the context is {found}; ask for a newer one")]
+    #[error("OpenGL 3.3 or OpenGL ES 3.0 is needed, the context is {found}; ask for a newer one")]
     TooOld {
         /// The version string of the context.
         found: String,

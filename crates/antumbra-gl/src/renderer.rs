@@ -17,8 +17,8 @@ const UPLOADS: usize = 3;
 /// Adds shadows to what a host has drawn.
 ///
 /// The first frame compiles the shaders for its kind of surface ([`Renderer::warm_up`] does it
-/// before); later frames compile nothing, and allocate nothing while the viewport stays and the
-/// number of occluders does not grow. Memory does not depend on the number of
+/// before); later frames compile nothing, and allocate nothing while the viewport stays and no more
+/// pairs of light and occluder come into sight than before. Memory does not depend on the number of
 /// lights. Every piece of OpenGL state is left as it was found. The context the renderer was made
 /// in must be current in every call and when it is dropped, which deletes its OpenGL objects.
 pub struct Renderer {

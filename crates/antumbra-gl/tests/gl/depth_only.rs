@@ -20,12 +20,6 @@ fn without<'w>(shot: &Shot<'w>, normals: bool, ids: bool) -> Frame<'w> {
     frame
 }
 
-/// What is off where the depth buffer has to do for everything: the fraction of pixels, away from
-/// edges. Normals are found from neighbours' depths, and are wrong where an object is but a few
-/// pixels wide; without ids, points within the depth buffer's rounding of an object's rim are in
-/// doubt.
-const DOUBT: f64 = 2e-3;
-
 /// Every kind of surface has the shadows that the ray tracer has: no acne on any shape, no detached
 /// shadows.
 #[test]
@@ -42,12 +36,7 @@ fn every_kind_of_surface_has_the_right_shadows() {
                     .filter(|&i| truth.sure[i] && truth.lights[light][i].1.max_element() > 0.0)
                     .filter(|&i| (f32::from(mask[i]) / 255.0 - truth.lights[light][i].0).abs() > 0.5)
                     .count();
-                let allowed = if ids { 0 } else { (mask.len() as f64 * DOUBT) as usize };
-                eprintln!("normals {normals}, ids {ids}, light {light}: {wrong} wrong");
-                assert!(
-                    wrong <= allowed,
-                    "normals {normals}, ids {ids}, light {light}: {wrong} pixels are wrong"
-                );
+                assert_eq!(wrong, 0, "normals {normals}, ids {ids}, light {light}: pixels are wrong");
             }
             gl.assert_no_complaint("masks");
             if normals && ids {
@@ -84,12 +73,7 @@ fn lit_sides_stay_lit_without_ids() {
                         })
                         .collect();
                     let dark = lit.iter().filter(|&&i| mask[i] < 255).count();
-                    let allowed = (lit.len() as f64 * DOUBT) as usize;
-                    assert!(
-                        dark <= allowed,
-                        "{bits} bits, {own:?}, light {light}: {dark} of {} dark",
-                        lit.len()
-                    );
+                    assert_eq!(dark, 0, "{bits} bits, {own:?}, light {light}: dark of {} lit", lit.len());
                 }
             }
         }

@@ -109,7 +109,12 @@ impl Edge {
     pub(super) fn clipped(&self, f: DVec3) -> Vec<Self> {
         match *self {
             Self::Line([a, b]) => {
-                let (fa, fb) = (f.dot(a), f.dot(b));
+                // Ends on the cut to rounding are on it: a point at infinity would turn into one far away.
+                let on = |p: DVec3| {
+                    let value = f.dot(p);
+                    if value.abs() <= 4.0 * f64::EPSILON * f.abs().dot(p.abs()) { 0.0 } else { value }
+                };
+                let (fa, fb) = (on(a), on(b));
                 // b fa - a fb: in a form that stays exact when the ends are far away to both sides,
                 // but not if the line and the cut are nearly the same.
                 let line = a.cross(b);
