@@ -42,6 +42,14 @@ pub enum Error {
         /// Which texture: depth, normals or ids.
         image: &'static str,
     },
+    /// A light's numbers make no sense.
+    #[error("bad light {index}: {reason}")]
+    BadLight {
+        /// Its index in [`crate::Frame::lights`].
+        index: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// The frame is not a frame: its numbers or sizes make no sense.
     #[error("bad frame: {0}")]
     BadFrame(&'static str),

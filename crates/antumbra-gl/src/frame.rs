@@ -9,7 +9,8 @@ pub struct Frame<'a> {
     pub camera: Camera,
     /// The host's viewport: x, y, width, height, as in `glViewport`.
     pub viewport: [i32; 4],
-    /// What the host has drawn.
+    /// What the host has drawn. Its textures must exist and be of the kinds [`Surface`] says: what
+    /// OpenGL does with others is undefined.
     pub surface: Surface,
     /// The lights, any number of them.
     pub lights: &'a [Light],
@@ -47,8 +48,13 @@ impl Camera {
 /// covering at least the viewport; texel (x, y) belongs to window pixel (x, y).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// The depth buffer, `TEXTURE_2D`, or `TEXTURE_2D_MULTISAMPLE` with more than one sample.
+    /// The depth buffer as a texture: `TEXTURE_2D`, or `TEXTURE_2D_MULTISAMPLE` with more than one sample.
     /// Depth comparison must be off (it is unless the host turned it on).
+    ///
+    /// A host that draws to textures has one: attach it to the framebuffer that the scene is drawn to,
+    /// and bind a second framebuffer, with the same colour and no depth, for the overlay. A host that
+    /// draws to the window or to renderbuffers copies its depth once a frame: `glBlitFramebuffer` with
+    /// `DEPTH_BUFFER_BIT` into a framebuffer with a depth texture of the same format and size.
     pub depth: glow::Texture,
     /// Samples a pixel; 1 for plain textures.
     pub samples: u32,
@@ -78,9 +84,11 @@ pub const NO_SHADOW: u32 = 1 << 31;
 /// How a depth buffer stores depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthFormat {
-    /// Bits of mantissa near the far end: 24 for `DEPTH_COMPONENT24` and `DEPTH_COMPONENT32F`,
-    /// 16 for `DEPTH_COMPONENT16`.
+    /// Bits: 24 for `DEPTH_COMPONENT24` and (of the mantissa) `DEPTH_COMPONENT32F`, 16 for
+    /// `DEPTH_COMPONENT16`.
     pub bits: u32,
+    /// Whether depth is a float, `DEPTH_COMPONENT32F`: its steps shrink towards 0.
+    pub float: bool,
     /// The depth where nothing was drawn: 1, or 0 with a reversed projection.
     pub background: f32,
     /// Whether clip space runs from 0 to 1 (`glClipControl`) and not from -1 to 1.
@@ -89,7 +97,7 @@ pub struct DepthFormat {
 
 impl Default for DepthFormat {
     fn default() -> Self {
-        Self { bits: 24, background: 1.0, zero_to_one: false }
+        Self { bits: 24, float: false, background: 1.0, zero_to_one: false }
     }
 }
 
@@ -114,15 +122,19 @@ pub enum NormalSpace {
 }
 
 /// A light: where it is, and what it sends.
+///
+/// A light whose place is not finite, or whose direction is zero, is off. Other numbers that make no
+/// sense are [`crate::Error::BadLight`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// Where light comes from, world space.
     pub place: antumbra_math::Light,
-    /// Linear RGB times intensity: candela, lux for a directional light.
+    /// Linear RGB times intensity: candela, lux for a directional light. Finite, not negative.
     pub intensity: Vec3,
-    /// Spot lights: the half-angle, radians, up to which the light is full.
+    /// Spot lights: the half-angle, radians, up to which the light is full; from 0 to the outer angle.
     pub inner_angle: f32,
-    /// Constant, linear and quadratic attenuation with the distance: [0, 0, 1] is physical.
+    /// Constant, linear and quadratic attenuation with the distance: [0, 0, 1] is physical. Finite,
+    /// not negative, not all zero.
     pub attenuation: [f32; 3],
 }
 
@@ -154,6 +166,24 @@ impl Light {
             outer_angle: outer_angle.into(),
         };
         Self { inner_angle, ..Self::new(place, intensity) }
+    }
+
+    /// What is wrong with the light's numbers, if anything.
+    pub(crate) fn fault(&self) -> Option<&'static str> {
+        let sane = |x: f32| x.is_finite() && x >= 0.0;
+        if !self.intensity.to_array().into_iter().all(sane) {
+            return Some("its intensity is negative or not finite");
+        }
+        if !self.attenuation.into_iter().all(sane) || self.attenuation == [0.0; 3] {
+            return Some("its attenuation is negative, not finite, or all zero");
+        }
+        if let antumbra_math::Light::Spot { outer_angle, .. } = self.place {
+            let angles_fit = sane(self.inner_angle) && f64::from(self.inner_angle) <= outer_angle + 1e-6;
+            if !angles_fit || outer_angle > std::f64::consts::PI {
+                return Some("a spot's half-angles must be 0 <= inner <= outer <= π");
+            }
+        }
+        None
     }
 
     fn new(place: antumbra_math::Light, intensity: Vec3) -> Self {
@@ -197,6 +227,28 @@ impl Occluder {
     /// A triangle, seen and blocking from both sides.
     pub fn triangle(vertices: [impl Into<DVec3>; 3]) -> Self {
         Self::new(antumbra_math::Triangle { vertices: vertices.map(Into::into) }.into())
+    }
+
+    /// A flat rectangle around `center`, seen and blocking from both sides; `half_right` and
+    /// `half_forward` reach from there to the middles of two neighbouring sides, at right angles.
+    pub fn rectangle(
+        center: impl Into<DVec3>,
+        half_right: impl Into<DVec3>,
+        half_forward: impl Into<DVec3>,
+    ) -> Self {
+        let (center, half_right, half_forward) = (center.into(), half_right.into(), half_forward.into());
+        Self::new(antumbra_math::Rectangle { center, half_right, half_forward }.into())
+    }
+
+    /// An infinite plane, which takes the light from everything on its other side.
+    pub fn plane(point: impl Into<DVec3>, normal: impl Into<DVec3>) -> Self {
+        Self::new(antumbra_math::Plane::through(point.into(), normal.into().normalize_or_zero()).into())
+    }
+
+    /// A shape in its own space, placed in the world by the host's model matrix: rotation, uniform
+    /// scale and translation. `None` for any other matrix, under which a ball would not be a ball.
+    pub fn placed(shape: impl Into<antumbra_math::Shape>, model: Mat4) -> Option<Self> {
+        shape.into().placed(&model.as_dmat4()).map(Self::new)
     }
 
     /// A solid cone.

@@ -14,6 +14,9 @@ pub const BATCH_LIGHTS: usize = 8;
 /// Lights in one RGBA target.
 pub(crate) const GROUP_LIGHTS: usize = 4;
 
+/// Height of the eye above a plane, as a part of its distance from the origin, that is rounding.
+const EYE_IN_PLANE: f64 = 1e-9;
+
 /// A corner of a bounding polygon, as the vertex shader reads it.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
@@ -73,9 +76,12 @@ impl PairBuilder {
             self.shapes_vs.push((shape, o.id, center, radius));
             // Nothing is seen behind an opaque plane that the host draws.
             if let (Shape::Plane(plane), true) = (shape, o.id != 0) {
-                let eye_side = plane.height(DVec3::ZERO).signum();
-                self.bounds_vs
-                    .push(Plane { normal: plane.normal * eye_side, offset: plane.offset * eye_side });
+                // Unless the eye is in it, and sees both sides.
+                let height = plane.height(DVec3::ZERO);
+                if height.abs() > EYE_IN_PLANE * view.view.w_axis.truncate().length() {
+                    let side = height.signum();
+                    self.bounds_vs.push(Plane { normal: plane.normal * side, offset: plane.offset * side });
+                }
             }
         }
     }

@@ -140,7 +140,7 @@ impl Renderer {
     /// The framebuffer's other colour buffers are left alone.
     ///
     /// # Errors
-    /// [`Error::BadFrame`], [`Error::Unsupported`], [`Error::SurfaceAttached`],
+    /// [`Error::BadFrame`], [`Error::BadLight`], [`Error::Unsupported`], [`Error::SurfaceAttached`],
     /// [`Error::Resource`]. The picture is then untouched.
     pub fn overlay(&mut self, frame: &Frame<'_>, encoding: Encoding) -> Result<(), Error> {
         let gamma = match encoding {
@@ -192,10 +192,12 @@ impl Renderer {
     }
 
     /// Fills visibility textures and hands them to `shade`, [`BATCH_LIGHTS`] lights at a time,
-    /// once for each batch. In `shade` the OpenGL state is the host's own.
+    /// once for each batch. In `shade` the OpenGL state is the host's own. The next batch, and the
+    /// next call of the renderer, overwrite the textures: with one batch they may be used until then,
+    /// with several only inside `shade`.
     ///
     /// # Errors
-    /// [`Error::BadFrame`], [`Error::Unsupported`], [`Error::Resource`].
+    /// [`Error::BadFrame`], [`Error::BadLight`], [`Error::Unsupported`], [`Error::Resource`].
     pub fn masks(&mut self, frame: &Frame<'_>, mut shade: impl FnMut(&MaskBatch)) -> Result<(), Error> {
         let view = View::new(frame, &self.caps)?;
         let gl = self.gl.clone();
@@ -419,9 +421,9 @@ unsafe fn set_surface(
         }
         gl.uniform_matrix_4_f32_slice(u.unproject.as_ref(), false, &view.unproject.to_cols_array());
         gl.uniform_4_f32_slice(u.pixel_step.as_ref(), &view.pixel_step);
-        gl.uniform_2_f32_slice(u.background_depth.as_ref(), &view.background_depth);
+        gl.uniform_3_f32_slice(u.background_depth.as_ref(), &view.background_depth);
         gl.uniform_2_i32(u.surface_offset.as_ref(), offset[0], offset[1]);
-        gl.uniform_2_i32(u.surface_last.as_ref(), x + width - 1, y + height - 1);
+        gl.uniform_4_i32(u.surface_range.as_ref(), x, y, x + width - 1, y + height - 1);
         gl.uniform_matrix_3_f32_slice(u.normal_to_view.as_ref(), false, &view.normal_to_view.to_cols_array());
         gl.uniform_2_f32_slice(u.normal_decode.as_ref(), &view.normal_decode);
     }

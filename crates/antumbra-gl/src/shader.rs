@@ -175,7 +175,7 @@ uniforms!(
     pixel_step,
     background_depth,
     surface_offset,
-    surface_last,
+    surface_range,
     normal_to_view,
     normal_decode,
     blockers,

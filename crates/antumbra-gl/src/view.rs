@@ -14,8 +14,9 @@ pub(crate) struct View {
     pub(crate) unproject: Mat4,
     /// Size of a pixel at distance one or in metres, 1 for perspective, size of a footprint in pixels.
     pub(crate) pixel_step: [f32; 4],
-    /// The depth of the background, and the resolution of the depth buffer.
-    pub(crate) background_depth: [f32; 2],
+    /// The depth of the background, and the step of the depth buffer: a part that is the same at every
+    /// depth, and one in proportion to it.
+    pub(crate) background_depth: [f32; 3],
     /// The host's normals to view space.
     pub(crate) normal_to_view: Mat3,
     /// Scale and offset.
@@ -52,6 +53,14 @@ impl View {
         if surface.samples == 0 {
             return Err(Error::BadFrame("the surface has no samples; plain textures have 1"));
         }
+        for (index, light) in frame.lights.iter().enumerate() {
+            if let Some(reason) = light.fault() {
+                return Err(Error::BadLight { index, reason });
+            }
+        }
+        if frame.occluders.iter().any(|o| o.id >= crate::NO_SHADOW) {
+            return Err(Error::BadFrame("an occluder's id is not below NO_SHADOW"));
+        }
         if !frame.ambient.is_finite() || frame.ambient.min_element() < 0.0 {
             return Err(Error::BadFrame("the ambient light is negative or not finite"));
         }
@@ -87,6 +96,7 @@ impl View {
                 (to_view, if normals.biased { [2.0, -1.0] } else { [1.0, 0.0] })
             }
         };
+        let step = 0.5f32.powi(format.bits.min(32) as i32);
         Ok(Self {
             view,
             projection,
@@ -97,7 +107,11 @@ impl View {
                 if perspective { 1.0 } else { 0.0 },
                 footprint as f32,
             ],
-            background_depth: [format.background, 0.5f32.powi(format.bits.min(32) as i32)],
+            background_depth: if format.float {
+                [format.background, 0.0, step]
+            } else {
+                [format.background, step, 0.0]
+            },
             normal_to_view,
             normal_decode,
             near_w,

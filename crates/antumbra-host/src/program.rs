@@ -40,7 +40,7 @@ uniforms!(
     eye,
     from_view,
     window,
-    depth,
+    near,
     shape,
     size,
     triangle,

@@ -56,12 +56,13 @@ impl Setting {
         let described = describe(scene, &moment)?;
         let near = near_distance(scene, &moment);
         let y = (scene.camera.fov_y * 0.5).tan().recip();
-        // Infinite: whatever is far stays in, at full relative precision.
+        // Infinite and reversed: depth is near / distance, of which float32 keeps the same relative
+        // precision from the nearest thing to the farthest.
         let projection = DMat4::from_cols(
             DVec4::X * (y / aspect),
             DVec4::Y * y,
-            DVec4::new(0.0, 0.0, -1.0, -1.0),
-            DVec4::Z * (-2.0 * near),
+            DVec4::new(0.0, 0.0, 0.0, -1.0),
+            DVec4::Z * near,
         );
         Ok(Self {
             described,
@@ -85,8 +86,11 @@ fn bounds(moment: &Moment, eye: DVec3) -> Vec<Plane> {
             Some((low, high)) => whole = Some(whole.map_or((low, high), |(a, b)| (a.min(low), b.max(high)))),
             None => {
                 let plane = Plane::through(primitive.pose.translation, primitive.pose.direction(DVec3::Y));
-                let side = plane.height(eye).signum();
-                planes.push(Plane { normal: plane.normal * side, offset: plane.offset * side });
+                // With the eye in the plane both sides are seen.
+                if plane.height(eye).abs() > 1e-9 * (eye.length() + plane.offset.abs()) {
+                    let side = plane.height(eye).signum();
+                    planes.push(Plane { normal: plane.normal * side, offset: plane.offset * side });
+                }
             }
         }
     }
@@ -98,7 +102,8 @@ fn bounds(moment: &Moment, eye: DVec3) -> Vec<Plane> {
     planes
 }
 
-/// Half the distance to the nearest thing, so that the depth buffer spends its digits well.
+/// Half the distance to the nearest thing, so that it is not cut off; where the eye is on it or may
+/// be, the smallest distance that float32 tells from zero at the eye.
 fn near_distance(scene: &Scene, moment: &Moment) -> f64 {
     let eye = scene.camera.eye;
     let nearest = moment
@@ -108,9 +113,8 @@ fn near_distance(scene: &Scene, moment: &Moment) -> f64 {
             Some((low, high)) => eye.distance(eye.clamp(low, high)),
             None => p.pose.direction(DVec3::Y).dot(eye - p.pose.translation).abs(),
         })
-        .fold(f64::INFINITY, f64::min);
-    let sight = eye.distance(scene.camera.target);
-    (0.5 * nearest).clamp(1e-3 * sight, 0.5 * sight)
+        .fold(1.0, f64::min);
+    (0.5 * nearest).max(1e-7 * eye.length().max(1e-3))
 }
 
 impl Stage {
@@ -183,7 +187,7 @@ impl Stage {
             gl.disable(glow::BLEND);
             gl.enable(glow::DEPTH_TEST);
             gl.depth_mask(true);
-            gl.depth_func(glow::LESS);
+            gl.depth_func(glow::GREATER);
             gl.enable(glow::CULL_FACE);
             gl.cull_face(glow::FRONT); // the far side of each box: seen from inside it too
             gl.clear_buffer_f32_slice(glow::COLOR, 0, &setting.background.extend(1.0).to_array());
@@ -191,7 +195,7 @@ impl Stage {
                 gl.clear_buffer_f32_slice(glow::COLOR, 1, &[0.0; 4]);
                 gl.clear_buffer_u32_slice(glow::COLOR, 2, &[0; 4]);
             }
-            gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[1.0]);
+            gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.0]);
             gl.use_program(Some(program.raw));
             gl.bind_vertex_array(Some(self.vertex_array));
             gl.uniform_matrix_4_f32_slice(
@@ -200,7 +204,7 @@ impl Stage {
                 &projection.as_mat4().to_cols_array(),
             );
             gl.uniform_4_f32_slice(u.window.as_ref(), &window);
-            gl.uniform_2_f32(u.depth.as_ref(), 1.0, -setting.near as f32);
+            gl.uniform_1_f32(u.near.as_ref(), setting.near as f32);
             gl.bind_buffer_base(glow::UNIFORM_BUFFER, 0, Some(self.lights));
             // More lights than a uniform block holds are added in further passes.
             let lights = &setting.described.lights;
@@ -273,7 +277,7 @@ impl Stage {
             surface: Surface {
                 depth: targets.depth,
                 samples,
-                depth_format: DepthFormat::default(),
+                depth_format: DepthFormat { bits: 24, float: true, background: 0.0, zero_to_one: true },
                 normals: Some(Normals { texture: targets.normals, space: NormalSpace::View, biased: false }),
                 ids: Some(targets.ids),
             },

@@ -4,6 +4,7 @@ mod common;
 
 use antumbra_host::{Api, RenderOptions, Stage};
 use antumbra_reference::Tracer;
+use antumbra_scene::Scene;
 use antumbra_testkit::metrics;
 use antumbra_testkit::random_scene::{RandomScene, random_scene};
 
@@ -25,6 +26,105 @@ fn random_scenes_are_classified_right_by_opengl_es() {
     classify(Api::Gles30, 1000..1008);
 }
 
+/// What a comparison of all lights of a scene finds.
+#[derive(Default)]
+struct Found {
+    /// Pixels on the wrong side outside the band.
+    wrong: usize,
+    /// Sum of squared differences on edge pixels.
+    squares: f64,
+    /// Edge pixels.
+    edges: usize,
+}
+
+fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
+    let (width, height) = (scene.image.width, scene.image.height);
+    let options = RenderOptions { time: 0.0, width, height, msaa: 1, visibility: true, shadows: true };
+    let drawn = stage.render(scene, &options).expect("the scene draws");
+    let tracer = Tracer::new(scene, 0.0);
+    let mut found = Found::default();
+    for (i, test) in drawn.visibility.iter().enumerate() {
+        let truth = common::truth(scene, &tracer, i, width, height);
+        let wrong = metrics::misclassified(test, &truth.visibility, &truth.band);
+        let rms = metrics::rms(test, &truth.visibility, &truth.edge);
+        let edges = truth.edge.iter().filter(|e| **e).count();
+        if wrong > 0 || rms > 0.05 {
+            let kind = &scene.lights[i].kind;
+            eprintln!("{name} light {i} ({kind:?}): {wrong} wrong, {edges} edge pixels, rms {rms:.4}");
+        }
+        found.wrong += wrong;
+        found.squares += rms * rms * edges as f64;
+        found.edges += edges;
+    }
+    found
+}
+
+/// Cameras and lights in awkward places: a target far away, an eye close to a ball or the floor, in
+/// the floor's plane, lights in the plane of the floor, a view almost along it.
+#[test]
+fn awkward_views_are_classified_right() {
+    let Some(context) = common::context(Api::Gl33) else { return };
+    let mut stage = Stage::new(context.gl()).expect("a stage");
+    let cameras = [
+        ("far target", [0.0, 1.5, 3.0], [0.0, -1000.0, -5000.0]),
+        ("near target", [0.0, 1.5, 3.0], [0.0, 1.4998, 2.999]),
+        ("at the ball", [0.0, 0.9, 0.701], [0.0, 0.5, -100.0]),
+        ("at the floor", [0.0, 1e-3, 4.0], [0.0, 0.4, 0.0]),
+        ("in the floor", [0.0, 0.0, 4.0], [0.0, 0.4, 0.0]),
+        ("below the floor", [0.0, -2.0, 4.0], [0.0, 0.0, 0.0]),
+        ("along the floor", [0.0, 0.05, 60.0], [0.0, 0.0, 0.0]),
+    ];
+    let mut all = 0;
+    for (name, eye, target) in cameras {
+        for casts in [true, false] {
+            let text = format!(
+                r#"
+                camera = {{ eye = {eye:?}, target = {target:?} }}
+                image = {{ width = 320, height = 180 }}
+                [[light]]
+                name = "above"
+                type = "point"
+                position = [1.5, 4.0, 1.0]
+                intensity = 1.0
+                [[light]]
+                name = "level"
+                type = "point"
+                position = [3.0, 0.0, 2.0]
+                intensity = 1.0
+                [[light]]
+                name = "below"
+                type = "directional"
+                direction = [0.3, 1.0, 0.1]
+                intensity = 1.0
+                [[object]]
+                name = "floor"
+                shape = {{ type = "plane" }}
+                casts_shadow = {casts}
+                [[object]]
+                name = "ball"
+                shape = {{ type = "sphere", radius = 0.7 }}
+                translation = [0.0, 0.9, 0.0]
+                [[object]]
+                name = "cone"
+                shape = {{ type = "cone", radius = 0.5, height = 1.0 }}
+                translation = [-1.2, 0.5, 0.3]
+                [[object]]
+                name = "low"
+                shape = {{ type = "sphere", radius = 0.4 }}
+                translation = [0.3, -0.9, 0.2]
+                "#
+            );
+            let scene = Scene::parse(&text, name.as_ref()).expect("the scene is right");
+            let wrong = compare(&mut stage, &scene, name).wrong;
+            if wrong > 0 {
+                eprintln!("{name}, floor casts: {casts}: {wrong} pixels are wrong");
+            }
+            all += wrong;
+        }
+    }
+    assert_eq!(all, 0, "pixels on the wrong side outside the band");
+}
+
 fn classify(api: Api, seeds: std::ops::Range<u64>) {
     let Some(context) = common::context(api) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
@@ -34,26 +134,11 @@ fn classify(api: Api, seeds: std::ops::Range<u64>) {
         let mut scene = random_scene(seed, &RandomScene::default());
         // The receivers take light from each other in every other scene.
         scene.objects[..2].iter_mut().for_each(|o| o.casts_shadow = seed % 2 == 1);
-        let (width, height) = (scene.image.width, scene.image.height);
-        let options = RenderOptions { time: 0.0, width, height, msaa: 1, visibility: true, shadows: true };
-        let drawn = stage.render(&scene, &options).expect("the scene draws");
-        let tracer = Tracer::new(&scene, 0.0);
-        for (i, test) in drawn.visibility.iter().enumerate() {
-            let truth = common::truth(&scene, &tracer, i, width, height);
-            let missed = metrics::misclassified(test, &truth.visibility, &truth.band);
-            let rms = metrics::rms(test, &truth.visibility, &truth.edge);
-            let count = truth.edge.iter().filter(|e| **e).count();
-            if missed > 0 || rms > 0.05 {
-                eprintln!(
-                    "scene {seed} light {i} ({:?}): {missed} wrong, {count} edge pixels, rms {rms:.4}",
-                    scene.lights[i].kind
-                );
-            }
-            wrong += missed;
-            squares += rms * rms * count as f64;
-            edges += count;
-            lights += 1;
-        }
+        lights += scene.lights.len();
+        let found = compare(&mut stage, &scene, &format!("scene {seed}"));
+        wrong += found.wrong;
+        squares += found.squares;
+        edges += found.edges;
     }
     let rms = (squares / edges as f64).sqrt();
     eprintln!(
@@ -77,9 +162,7 @@ fn pictures_are_the_traced_ones() {
         ["balls-on-the-floor", "coloured-lights", "many-lights", "shadows-on-objects", "sun-and-spotlights"];
     let mut scenes: Vec<_> = files
         .iter()
-        .map(|name| {
-            antumbra_scene::Scene::load(&gallery.join(name).with_extension("toml")).expect("a gallery scene")
-        })
+        .map(|name| Scene::load(&gallery.join(name).with_extension("toml")).expect("a gallery scene"))
         .collect();
     scenes.extend((100..110).map(|seed| random_scene(seed, &RandomScene::default())));
     for (n, scene) in scenes.iter().enumerate() {

@@ -33,5 +33,5 @@ float sphere_coverage(SphereBlocker b, Footprint footprint, bool solid, float to
 
 float blocker_coverage(Footprint footprint, SurfacePoint surface) {
     SphereBlocker b = SphereBlocker(BLOCKER_DATA[0].xyz, BLOCKER_DATA[0].w, BLOCKER_DATA[1].xyz, BLOCKER_DATA[1].w);
-    return sphere_coverage(b, footprint, surface.has_id, surface.tolerance);
+    return sphere_coverage(b, footprint, surface.has_id, surface.has_id ? 0.0 : surface.tolerance);
 }

@@ -23,9 +23,9 @@ uniform highp SURFACE_USAMPLER u_ids;
 #endif
 uniform mat4 u_unproject;         // window (x, y, depth - background depth, 1) to view space
 uniform vec4 u_pixel_step;        // see screen_footprint; w: size of a footprint in pixels
-uniform vec2 u_background_depth;  // x: depth where nothing was drawn; y: resolution of the depth buffer
+uniform vec3 u_background_depth;  // x: depth where nothing was drawn; step of the buffer: y, plus z * depth
 uniform ivec2 u_surface_offset;   // from this target's pixel to the surface textures' texel
-uniform ivec2 u_surface_last;     // the last texel of the surface
+uniform ivec4 u_surface_range;    // the first and the last texel of the viewport
 
 struct SurfacePoint {
     ivec2 texel;
@@ -33,11 +33,11 @@ struct SurfacePoint {
     uint id;           // 0: nothing that casts a shadow
     bool has_id;
     bool receives;
-    float tolerance;   // distances below this are depth-buffer rounding; 0 when ids decide
+    float tolerance;   // distances below this are rounding of the depth buffer and of float32
 };
 
 float surface_depth(ivec2 texel) {
-    return texelFetch(u_depth, clamp(texel, ivec2(0), u_surface_last), SURFACE_INDEX).x;
+    return texelFetch(u_depth, clamp(texel, u_surface_range.xy, u_surface_range.zw), SURFACE_INDEX).x;
 }
 
 // View space, homogeneous. The far end of the depth buffer is its dense end: counted from there,
@@ -60,15 +60,15 @@ bool surface_point(out SurfacePoint s) {
     s.has_id = true;
     s.id = id & 0x7fffffffu;
     s.receives = (id >> 31u) == 0u;
-    s.tolerance = 0.0;
 #else
     s.has_id = false;
     s.id = 0u;
     s.receives = true;
+#endif
     // How far the point moves for one step of the depth buffer, and of float32.
     vec3 slope = (u_unproject[2].xyz - s.position * u_unproject[2].w) / p.w;
-    s.tolerance = 2.0 * length(slope) * u_background_depth.y + length(s.position) * 4e-6;
-#endif
+    float step = u_background_depth.y + u_background_depth.z * depth;
+    s.tolerance = 2.0 * length(slope) * step + length(s.position) * 4e-6;
     return true;
 }
 
@@ -86,14 +86,19 @@ vec3 straighter_step(SurfacePoint s, ivec2 step) {
     float ahead = surface_depth(s.texel + step);
     float bend_back = abs(2.0 * back - surface_depth(s.texel - 2 * step) - here);
     float bend_ahead = abs(2.0 * ahead - surface_depth(s.texel + 2 * step) - here);
-    float side = bend_ahead <= bend_back ? 1.0 : -1.0;
+    // A neighbour outside the viewport is no neighbour.
+    bool is_first = any(lessThan(s.texel - step, u_surface_range.xy));
+    bool is_last = any(greaterThan(s.texel + step, u_surface_range.zw));
+    float side = is_last || (bend_back < bend_ahead && !is_first) ? -1.0 : 1.0;
     vec4 p = unproject(PIXEL_POSITION + side * vec2(step), side > 0.0 ? ahead : back);
     return (p.xyz / p.w - s.position) * side;
 }
 
 vec3 raw_normal(SurfacePoint s) {
     vec3 n = cross(straighter_step(s, ivec2(1, 0)), straighter_step(s, ivec2(0, 1)));
-    return n * inversesqrt(max(dot(n, n), 1e-30));
+    float square = dot(n, n);
+    // A viewport one pixel wide tells nothing of the slope: take the surface as facing the eye.
+    return square > 0.0 ? n * inversesqrt(square) : normalize(-s.position);
 }
 #endif
 

@@ -3,7 +3,7 @@
 use crate::context::in_each_api;
 use crate::shot::{Canvas, Shot};
 use crate::world::World;
-use antumbra_gl::{Encoding, Error, Frame, Renderer, Surface};
+use antumbra_gl::{Encoding, Error, Frame, Light, NO_SHADOW, Occluder, Renderer, Surface};
 use glam::{DMat4, DVec3, DVec4, Vec3};
 
 /// Frames that are refused, and a word of what the error says.
@@ -72,6 +72,45 @@ fn bad_frames_are_refused_and_nothing_is_drawn() {
         }
         assert!(canvas.read(0).iter().all(|texel| *texel == [255; 4]), "nothing is drawn");
         renderer.overlay(&shot.frame(), Encoding::Linear).expect("a right frame after all the bad ones");
+    });
+}
+
+/// Lights whose numbers make no sense are named, and nothing is drawn.
+#[test]
+fn bad_lights_are_refused_by_number() {
+    in_each_api(|gl| {
+        let world = World::one_of_each();
+        let shot = Shot::new(gl, &world);
+        let canvas = Canvas::new(gl);
+        let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+        let good = Light::point(DVec3::Y * 5.0, Vec3::ONE);
+        let spot = |inner, outer| Light::spot(DVec3::Y * 5.0, DVec3::NEG_Y, inner, outer, Vec3::ONE);
+        let bad = [
+            ("intensity", Light { intensity: Vec3::NAN, ..good }),
+            ("intensity", Light { intensity: Vec3::INFINITY, ..good }),
+            ("intensity", Light { intensity: Vec3::new(1.0, -1.0, 1.0), ..good }),
+            ("attenuation", Light { attenuation: [0.0; 3], ..good }),
+            ("attenuation", Light { attenuation: [0.0, f32::NAN, 1.0], ..good }),
+            ("attenuation", Light { attenuation: [-1.0, 0.0, 1.0], ..good }),
+            ("half-angles", spot(f32::NAN, 0.5)),
+            ("half-angles", spot(0.1, f32::NAN)),
+            ("half-angles", spot(0.6, 0.5)),
+            ("half-angles", spot(0.1, 4.0)),
+        ];
+        for (word, light) in bad {
+            let mut lights = world.lights.clone();
+            let at = lights.len();
+            lights.push(light);
+            let frame = Frame { lights: &lights, ..shot.frame() };
+            for result in [renderer.overlay(&frame, Encoding::Linear), renderer.masks(&frame, |_| {})] {
+                let named = |e: &Error| matches!(e, Error::BadLight { index, reason } if *index == at && reason.contains(word));
+                assert!(result.as_ref().is_err_and(named), "{light:?}: {result:?}");
+            }
+        }
+        let occluders = [Occluder::sphere(DVec3::Y, 1.0).with_id(NO_SHADOW)];
+        let refused = renderer.overlay(&Frame { occluders: &occluders, ..shot.frame() }, Encoding::Linear);
+        assert!(matches!(refused, Err(Error::BadFrame(why)) if why.contains("id")), "{refused:?}");
+        assert!(canvas.read(0).iter().all(|texel| *texel == [255; 4]), "nothing is drawn");
     });
 }
 

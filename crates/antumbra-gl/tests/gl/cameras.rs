@@ -9,7 +9,7 @@ use antumbra_scene::Scene;
 use glam::camera::rh::proj;
 use glam::{DMat4, DVec3, DVec4};
 
-const REVERSED: DepthFormat = DepthFormat { bits: 24, background: 0.0, zero_to_one: true };
+const REVERSED: DepthFormat = DepthFormat { bits: 24, float: true, background: 0.0, zero_to_one: true };
 
 /// Every projection that hosts use, with what its depth buffer is like.
 fn cameras(world: &World) -> Vec<(&'static str, Camera, DepthFormat)> {

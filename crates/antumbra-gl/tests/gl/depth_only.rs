@@ -124,3 +124,41 @@ fn normals_come_in_any_space_and_format() {
         }
     });
 }
+
+/// Normals found from the depth are those of the surface up to the viewport's borders: a floor in a
+/// shadow that fills the picture comes out the same with and without a texture of normals.
+#[test]
+fn normals_from_depth_hold_at_the_borders() {
+    in_each_api(|gl| {
+        let world = World::parse(
+            r#"
+            camera = { eye = [0.5, 4.0, 3.0], target = [0.0, 0.0, 0.4], up = [0.2, 1.0, 0.0], fov_y = 30.0 }
+            [[light]]
+            name = "blocked"
+            type = "point"
+            position = [1.0, 9.0, 2.0]
+            intensity = 60.0
+            [[light]]
+            name = "free"
+            type = "point"
+            position = [-6.0, 2.0, 1.0]
+            intensity = 40.0
+            [[object]]
+            name = "floor"
+            shape = { type = "plane" }
+            [[object]]
+            name = "ball"
+            shape = { type = "sphere", radius = 1.5 }
+            translation = [0.7, 6.5, 1.6]
+            "#,
+        );
+        let shot = Shot::new(gl, &world);
+        let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+        let [with, found] = [true, false]
+            .map(|normals| overlay(gl, &mut renderer, &without(&shot, normals, true), Encoding::Linear));
+        let shadowed = with.iter().filter(|texel| texel[0] < 250).count();
+        assert!(shadowed > with.len() / 5, "the shadow reaches the borders");
+        let off = with.iter().zip(&found).filter(|(a, b)| (0..3).any(|c| a[c].abs_diff(b[c]) > 1)).count();
+        assert_eq!(off, 0, "pixels differ by more than a step of 8 bits");
+    });
+}

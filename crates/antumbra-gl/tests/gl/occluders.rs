@@ -98,12 +98,11 @@ fn lights_that_are_nowhere_take_nothing() {
                 Light::directional(DVec3::ZERO, Vec3::ONE),
                 Light::directional(at, Vec3::ONE),
                 Light::spot(at, DVec3::Y, 0.1, 0.2, Vec3::ONE),
-                Light::spot(DVec3::Y * 5.0, DVec3::NEG_Y, f32::NAN, f32::NAN, Vec3::ONE),
             ];
             let mut lights = nowhere.to_vec();
             lights.extend(&world.lights);
             let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
-            assert!(masks[5..] == alone[..], "the masks of the others change");
+            assert!(masks[4..] == alone[..], "the masks of the others change");
             gl.assert_no_complaint("lights that are nowhere");
         }
     });

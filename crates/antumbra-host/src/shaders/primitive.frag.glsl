@@ -10,7 +10,7 @@ uniform mat4 u_to_view;
 uniform vec3 u_eye;          // in the primitive's space
 uniform mat3 u_from_view;    // directions, to the primitive's space
 uniform vec4 u_window;       // xy: scale, zw: offset from window position to the ray's x and y at z = -1
-uniform vec2 u_depth;        // window depth = x + y / distance
+uniform float u_near;        // window depth = near / distance
 uniform int u_shape;
 uniform vec4 u_size;
 uniform vec3 u_triangle[3];
@@ -141,11 +141,11 @@ void main() {
     }
     vec3 position = normalize(sight) * t;
     normal = mat3(u_to_view) * (dot(normal, d) > 0.0 ? -normal : normal);
-    float depth = u_depth.x + u_depth.y / -position.z;
-    if (depth < 0.0) {
+    float depth = u_near / -position.z;
+    if (depth > 1.0) {
         discard;  // nearer than the near plane
     }
-    gl_FragDepth = min(depth, 0.99999994);  // the far end is still something, not the background
+    gl_FragDepth = max(depth, 1e-37);  // the far end is still something, not the background
     vec3 e = u_ambient;
     for (int i = 0; i < u_light_count; i++) {
         e += irradiance(lights[i * 4], lights[i * 4 + 1].rgb, lights[i * 4 + 2], lights[i * 4 + 3], position, normal);

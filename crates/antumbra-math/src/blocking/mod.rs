@@ -184,7 +184,43 @@ impl Shape {
         Blockers::new(self, light).block(point)
     }
 
-    /// The shape after the rigid motion `transform` (rotation and translation only).
+    /// The shape under a matrix of rotation, uniform scale and translation; `None` for any other
+    /// matrix, and for one that is not finite.
+    pub fn placed(&self, matrix: &DMat4) -> Option<Self> {
+        let axes = glam::DMat3::from_mat4(*matrix);
+        let scale = axes.x_axis.length();
+        let rotation = axes * (1.0 / scale);
+        let is_rotation = (rotation.transpose() * rotation).abs_diff_eq(glam::DMat3::IDENTITY, 1e-5);
+        if !matrix.is_finite() || !is_rotation || matrix.row(3) != DVec4::W {
+            return None;
+        }
+        let rigid = DMat4::from_mat3_translation(rotation, matrix.w_axis.truncate());
+        Some(self.scaled(scale).transformed(&rigid))
+    }
+
+    /// The shape made larger about the origin.
+    fn scaled(&self, by: f64) -> Self {
+        match *self {
+            Self::Plane(s) => Self::Plane(crate::Plane { offset: s.offset * by, ..s }),
+            Self::Rectangle(s) => Self::Rectangle(crate::Rectangle {
+                center: s.center * by,
+                half_right: s.half_right * by,
+                half_forward: s.half_forward * by,
+            }),
+            Self::Disc(s) => Self::Disc(Disc { center: s.center * by, radius: s.radius * by, ..s }),
+            Self::Triangle(s) => Self::Triangle(crate::Triangle { vertices: s.vertices.map(|v| v * by) }),
+            Self::Sphere(s) => Self::Sphere(crate::Sphere { center: s.center * by, radius: s.radius * by }),
+            Self::Cone(s) => Self::Cone(crate::Cone {
+                base_center: s.base_center * by,
+                radius: s.radius * by,
+                height: s.height * by,
+                ..s
+            }),
+        }
+    }
+
+    /// The shape after the rigid motion `transform` (rotation and translation only; see
+    /// [`Shape::placed`] for matrices that scale).
     pub fn transformed(&self, transform: &DMat4) -> Self {
         let point = |p| transform.transform_point3(p);
         let vector = |v| transform.transform_vector3(v);

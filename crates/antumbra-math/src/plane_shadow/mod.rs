@@ -171,9 +171,8 @@ impl PlaneShadow {
         }
     }
 
-    /// Whether a point of the plane is in shadow: decided by the signs of the boundary's equations,
-    /// to about 1e-9 of the shadow's size next to a corner, to rounding
-    /// elsewhere. False for a point with a NaN or an infinity.
+    /// Whether a point of the plane is in shadow: decided by the signs of the boundary's equations, to
+    /// about 1e-9 of the shadow's size next to a corner, to rounding elsewhere. False for a point with a NaN or an infinity.
     pub fn contains(&self, point: DVec2) -> bool {
         match (self.kind, &self.outline) {
             (ShadowKind::Everything, _) => point.is_finite(),

@@ -34,8 +34,13 @@ pub(super) struct Outline {
 impl Outline {
     /// The region bounded by the given chains of edges and by straight lines over the gaps between
     /// them. The chains may come in any order and run either way; in a chain every edge ends where the
-    /// next one starts. `None` if they bound nothing, or a number is not finite.
+    /// next one starts. `None` if they bound nothing, if all of their ends lie at infinity (what
+    /// rounding leaves of an occluder that just touches the light's height), or if a number is not
+    /// finite.
     pub(super) fn from_chains(chains: &[Vec<Edge>]) -> Option<Self> {
+        if chains.iter().flatten().all(|edge| edge.start().z <= 0.0 && edge.end().z <= 0.0) {
+            return None;
+        }
         let lengths = chains.iter().map(Vec::len);
         let mut outline = Self { edges: chains.concat(), origin: DVec2::ZERO, scale: 1.0 }.recentered()?;
         let is_single = chains.len() == 1;

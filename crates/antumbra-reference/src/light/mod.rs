@@ -47,7 +47,7 @@ pub(crate) fn incoming(light: &Light, p: DVec3, n: DVec3, u: DVec2) -> Option<In
         }
         LightKind::Directional { direction } => {
             let cosine = -direction.dot(n);
-            Some(Incoming {
+            (cosine > GRAZING).then_some(Incoming {
                 direction: -direction,
                 reach: f64::INFINITY,
                 weight: cosine,
@@ -70,11 +70,17 @@ pub(crate) fn incoming(light: &Light, p: DVec3, n: DVec3, u: DVec2) -> Option<In
     (found.weight > 0.0).then_some(found)
 }
 
+/// A cosine that rounding makes of zero: a hard light in the plane of a surface sends it nothing.
+const GRAZING: f64 = 1e-12;
+
 /// I cos / d².
 fn point(light: &Light, p: DVec3, n: DVec3) -> Option<Incoming> {
     let to = light.position - p;
     let squared = to.length_squared();
     let weight = to.dot(n) / squared.sqrt();
+    if weight <= GRAZING {
+        return None;
+    }
     (squared > 0.0).then_some(Incoming {
         direction: to,
         reach: 1.0,
