@@ -65,7 +65,8 @@ bool surface_point(out SurfacePoint s) {
     s.id = 0u;
     s.receives = true;
 #endif
-    // How far the point moves for one step of the depth buffer, and of float32.
+    // How far the point moves for a step of the depth buffer either way, and 64 roundings of float32
+    // on the way through the matrix: what lies nearer to a plane than that lies in it.
     vec3 slope = (u_unproject[2].xyz - s.position * u_unproject[2].w) / p.w;
     float step = u_background_depth.y + u_background_depth.z * depth;
     s.tolerance = 2.0 * length(slope) * step + length(s.position) * 4e-6;
