@@ -14,9 +14,6 @@ pub const BATCH_LIGHTS: usize = 8;
 /// Lights in one RGBA target.
 pub(crate) const GROUP_LIGHTS: usize = 4;
 
-/// Height of the eye above a plane, as a part of its distance from the origin, that is rounding.
-const EYE_IN_PLANE: f64 = 1e-9;
-
 /// A corner of a bounding polygon, as the vertex shader reads it.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
@@ -69,19 +66,15 @@ impl PairBuilder {
         self.tiles[1].reset(viewport_size(view));
         self.shapes_vs.clear();
         self.bounds_vs.clear();
+        let eye_ws = view.view.inverse().transform_point3(DVec3::ZERO);
         self.bounds_vs.extend(bounds.iter().map(|b| b.transformed(&view.view)));
         for o in occluders {
             let shape = o.shape.transformed(&view.view);
             let (center, radius) = shape.bounding_sphere();
             self.shapes_vs.push((shape, o.id, center, radius));
-            // Nothing is seen behind an opaque plane that the host draws.
-            if let (Shape::Plane(plane), true) = (shape, o.id != 0) {
-                // Unless the eye is in it, and sees both sides.
-                let height = plane.height(DVec3::ZERO);
-                if height.abs() > EYE_IN_PLANE * view.view.w_axis.truncate().length() {
-                    let side = height.signum();
-                    self.bounds_vs.push(Plane { normal: plane.normal * side, offset: plane.offset * side });
-                }
+            // Nothing is seen behind an opaque plane that the host draws, unless the eye is in it.
+            if let (Shape::Plane(plane), true) = (&o.shape, o.id != 0) {
+                self.bounds_vs.extend(plane.towards(eye_ws).map(|side| side.transformed(&view.view)));
             }
         }
     }

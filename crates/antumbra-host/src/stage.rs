@@ -87,10 +87,7 @@ fn bounds(moment: &Moment, eye: DVec3) -> Vec<Plane> {
             None => {
                 let plane = Plane::through(primitive.pose.translation, primitive.pose.direction(DVec3::Y));
                 // With the eye in the plane both sides are seen.
-                if plane.height(eye).abs() > 1e-9 * (eye.length() + plane.offset.abs()) {
-                    let side = plane.height(eye).signum();
-                    planes.push(Plane { normal: plane.normal * side, offset: plane.offset * side });
-                }
+                planes.extend(plane.towards(eye));
             }
         }
     }

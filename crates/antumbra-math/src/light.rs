@@ -1,6 +1,6 @@
 //! Lights as shadows see them: where light comes from, not how much.
 
-use glam::{DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 
 /// A light without extent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,5 +41,20 @@ impl Light {
     pub fn vector_from(&self, point: DVec3) -> DVec3 {
         let l = self.homogeneous();
         l.truncate() - point * l.w
+    }
+
+    /// The light after the rigid motion `transform` (rotation and translation only).
+    pub fn transformed(&self, transform: &DMat4) -> Self {
+        match *self {
+            Self::Point { position } => Self::Point { position: transform.transform_point3(position) },
+            Self::Directional { direction } => {
+                Self::Directional { direction: transform.transform_vector3(direction) }
+            }
+            Self::Spot { position, direction, outer_angle } => Self::Spot {
+                position: transform.transform_point3(position),
+                direction: transform.transform_vector3(direction),
+                outer_angle,
+            },
+        }
     }
 }

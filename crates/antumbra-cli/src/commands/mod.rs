@@ -9,11 +9,12 @@ mod trace;
 use antumbra_scene::Scene;
 
 use crate::args::{Cli, Command, DemoArgs, PictureArgs, Size};
-use crate::draw::{Drawing, Request};
+use crate::draw::{Drawing, Driver, Request};
 use crate::error::CliError;
 use crate::output::Picture;
 use crate::output::plan::Plan;
-use crate::report;
+use crate::report::{self, Report};
+use crate::technique::Technique;
 
 /// The most visibility values that are held at a time, lights times pixels: 2 GB as 32-bit float.
 const MAX_VISIBILITY: u64 = 1 << 29;
@@ -68,6 +69,33 @@ impl Job {
             time: arguments.time,
             visibility: arguments.visibility.is_some(),
         }
+    }
+
+    /// Writes the files and says what was done; `driver` is that of OpenGL, `None` for the CPU.
+    fn finish(
+        self,
+        arguments: &PictureArgs,
+        technique: Technique,
+        drawing: &Drawing,
+        driver: Option<Driver>,
+    ) -> Result<(), CliError> {
+        let on_cpu = driver.is_none();
+        Report {
+            scene: report::text(&arguments.scene),
+            technique: technique.name(),
+            backend: if on_cpu { "cpu" } else { "gl" },
+            width: self.size.width,
+            height: self.size.height,
+            time: arguments.time,
+            msaa: (!on_cpu).then_some(drawing.samples),
+            samples: on_cpu.then_some(drawing.samples),
+            lights: self.scene.lights.len(),
+            objects: self.scene.objects.len(),
+            driver,
+            milliseconds: drawing.milliseconds,
+            files: self.write(drawing)?,
+        }
+        .print(arguments.json)
     }
 
     /// Writes the files; returns their names.

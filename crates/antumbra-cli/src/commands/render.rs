@@ -5,7 +5,6 @@ use crate::commands::{Job, trace};
 use crate::draw::OpenGl;
 use crate::error::CliError;
 use crate::progress::Progress;
-use crate::report::{self, Report};
 use crate::technique::Technique;
 
 /// Rays a pixel on the CPU where `--msaa` does not say.
@@ -48,21 +47,5 @@ fn with_opengl(arguments: &RenderArgs) -> Result<(), CliError> {
     let drawing = gl.draw(&job.request(&arguments.picture), arguments.msaa)?;
     progress.set(1, 1);
     drop(progress);
-    let (size, lights, objects) = (job.size, job.scene.lights.len(), job.scene.objects.len());
-    Report {
-        scene: report::text(&arguments.picture.scene),
-        technique: Technique::Analytic.name(),
-        backend: "gl",
-        width: size.width,
-        height: size.height,
-        time: arguments.picture.time,
-        msaa: Some(drawing.samples),
-        samples: None,
-        lights,
-        objects,
-        driver: Some(driver),
-        milliseconds: drawing.milliseconds,
-        files: job.write(&drawing)?,
-    }
-    .print(arguments.picture.json)
+    job.finish(&arguments.picture, Technique::Analytic, &drawing, Some(driver))
 }

@@ -5,7 +5,6 @@ use crate::commands::Job;
 use crate::draw;
 use crate::error::CliError;
 use crate::progress::Progress;
-use crate::report::{self, Report};
 use crate::technique::Technique;
 
 /// Traces a scene.
@@ -30,21 +29,5 @@ pub(crate) fn draw(arguments: &PictureArgs, samples: u32) -> Result<(), CliError
         }
     });
     drop(progress);
-    let (size, lights, objects) = (job.size, job.scene.lights.len(), job.scene.objects.len());
-    Report {
-        scene: report::text(&arguments.scene),
-        technique: Technique::Raytraced.name(),
-        backend: "cpu",
-        width: size.width,
-        height: size.height,
-        time: arguments.time,
-        msaa: None,
-        samples: Some(drawing.samples),
-        lights,
-        objects,
-        driver: None,
-        milliseconds: drawing.milliseconds,
-        files: job.write(&drawing)?,
-    }
-    .print(arguments.json)
+    job.finish(arguments, Technique::Raytraced, &drawing, None)
 }

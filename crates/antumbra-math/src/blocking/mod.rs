@@ -36,7 +36,7 @@ pub use sphere::{SphereBlocker, sphere_coverage};
 
 use crate::real::{Real, Vector};
 use crate::{Cone, Disc, Light, Shape};
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DVec3, DVec4};
 
 /// One closed-form blocker of one light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +72,20 @@ impl Blocker<DVec3> {
             Self::Sphere(b) => Blocker::Sphere(b.to_f32()),
             Self::Disc(b) => Blocker::Disc(b.to_f32()),
             Self::Polygon(b) => Blocker::Polygon(b.to_f32()),
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        match self {
+            Self::Sphere(b) => b.center.is_finite() && b.radius.is_finite(),
+            Self::Disc(b) => {
+                b.center.is_finite()
+                    && b.radius.is_finite()
+                    && b.normal.is_finite()
+                    && b.toward.is_finite()
+                    && b.nearness.is_finite()
+            }
+            Self::Polygon(b) => b.planes().iter().all(|(n, d)| n.is_finite() && d.is_finite()),
         }
     }
 }
@@ -160,107 +174,11 @@ fn disc(disc: &Disc, light: DVec4) -> Option<(Blocker<DVec3>, Outline)> {
     Some((Blocker::Disc(DiscBlocker::new(disc, light)?), outline))
 }
 
-impl Blocker<DVec3> {
-    fn is_finite(&self) -> bool {
-        match self {
-            Self::Sphere(b) => b.center.is_finite() && b.radius.is_finite(),
-            Self::Disc(b) => {
-                b.center.is_finite()
-                    && b.radius.is_finite()
-                    && b.normal.is_finite()
-                    && b.toward.is_finite()
-                    && b.nearness.is_finite()
-            }
-            Self::Polygon(b) => b.planes().iter().all(|(n, d)| n.is_finite() && d.is_finite()),
-        }
-    }
-}
-
 impl Shape {
     /// Whether the shape blocks the way from `point` to the light. Points inside a solid are
     /// dark. Points on the shape itself are decided by rounding: leave out a receiver's own
     /// shape, which is convex and never shadows itself.
     pub fn blocks(&self, light: &Light, point: DVec3) -> bool {
         Blockers::new(self, light).block(point)
-    }
-
-    /// The shape under a matrix of rotation, uniform scale and translation; `None` for any other
-    /// matrix, and for one that is not finite.
-    pub fn placed(&self, matrix: &DMat4) -> Option<Self> {
-        let axes = glam::DMat3::from_mat4(*matrix);
-        let scale = axes.x_axis.length();
-        let rotation = axes * (1.0 / scale);
-        let is_rotation = (rotation.transpose() * rotation).abs_diff_eq(glam::DMat3::IDENTITY, 1e-5);
-        if !matrix.is_finite() || !is_rotation || matrix.row(3) != DVec4::W {
-            return None;
-        }
-        let rigid = DMat4::from_mat3_translation(rotation, matrix.w_axis.truncate());
-        Some(self.scaled(scale).transformed(&rigid))
-    }
-
-    /// The shape made larger about the origin.
-    fn scaled(&self, by: f64) -> Self {
-        match *self {
-            Self::Plane(s) => Self::Plane(crate::Plane { offset: s.offset * by, ..s }),
-            Self::Rectangle(s) => Self::Rectangle(crate::Rectangle {
-                center: s.center * by,
-                half_right: s.half_right * by,
-                half_forward: s.half_forward * by,
-            }),
-            Self::Disc(s) => Self::Disc(Disc { center: s.center * by, radius: s.radius * by, ..s }),
-            Self::Triangle(s) => Self::Triangle(crate::Triangle { vertices: s.vertices.map(|v| v * by) }),
-            Self::Sphere(s) => Self::Sphere(crate::Sphere { center: s.center * by, radius: s.radius * by }),
-            Self::Cone(s) => Self::Cone(crate::Cone {
-                base_center: s.base_center * by,
-                radius: s.radius * by,
-                height: s.height * by,
-                ..s
-            }),
-        }
-    }
-
-    /// The shape after the rigid motion `transform` (rotation and translation only; see
-    /// [`Shape::placed`] for matrices that scale).
-    pub fn transformed(&self, transform: &DMat4) -> Self {
-        let point = |p| transform.transform_point3(p);
-        let vector = |v| transform.transform_vector3(v);
-        match *self {
-            Self::Plane(s) => Self::Plane(s.transformed(transform)),
-            Self::Rectangle(s) => Self::Rectangle(crate::Rectangle {
-                center: point(s.center),
-                half_right: vector(s.half_right),
-                half_forward: vector(s.half_forward),
-            }),
-            Self::Disc(s) => Self::Disc(crate::Disc {
-                center: point(s.center),
-                normal: vector(s.normal),
-                radius: s.radius,
-            }),
-            Self::Triangle(s) => Self::Triangle(crate::Triangle { vertices: s.vertices.map(point) }),
-            Self::Sphere(s) => Self::Sphere(crate::Sphere { center: point(s.center), radius: s.radius }),
-            Self::Cone(s) => Self::Cone(crate::Cone {
-                base_center: point(s.base_center),
-                axis: vector(s.axis),
-                radius: s.radius,
-                height: s.height,
-            }),
-        }
-    }
-}
-
-impl Light {
-    /// The light after the rigid motion `transform` (rotation and translation only).
-    pub fn transformed(&self, transform: &DMat4) -> Self {
-        match *self {
-            Self::Point { position } => Self::Point { position: transform.transform_point3(position) },
-            Self::Directional { direction } => {
-                Self::Directional { direction: transform.transform_vector3(direction) }
-            }
-            Self::Spot { position, direction, outer_angle } => Self::Spot {
-                position: transform.transform_point3(position),
-                direction: transform.transform_vector3(direction),
-                outer_angle,
-            },
-        }
     }
 }

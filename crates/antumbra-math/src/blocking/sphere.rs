@@ -31,7 +31,7 @@ impl SphereBlocker<DVec3> {
 }
 
 pub(super) fn blockers(s: &Sphere, l: DVec4) -> Blockers {
-    if !(s.radius > 0.0 && s.center.is_finite()) {
+    if !(s.radius > 0.0) {
         return Blockers::NONE;
     }
     let (center, radius) = (s.center, s.radius);

@@ -3,6 +3,7 @@
 mod bounds;
 mod cone;
 mod disc;
+mod placing;
 mod plane;
 mod rectangle;
 mod sphere;

@@ -25,4 +25,13 @@ impl Plane {
         let point = transform.transform_point3(self.normal * self.offset);
         Self::through(point, transform.transform_vector3(self.normal))
     }
+
+    /// The same plane with its normal on the side of `point`; `None` for a point in the plane, to a
+    /// part 1e-9 of its distance and the plane's from the origin.
+    pub fn towards(&self, point: DVec3) -> Option<Self> {
+        let height = self.height(point);
+        let side = height.signum();
+        let clear = height.abs() > 1e-9 * (point.length() + self.offset.abs());
+        clear.then_some(Self { normal: self.normal * side, offset: self.offset * side })
+    }
 }
