@@ -3,10 +3,12 @@
 
 pub mod blocking;
 mod light;
+pub mod mesh;
 pub mod plane_shadow;
 pub mod real;
 pub mod shape;
 
 pub use light::Light;
+pub use mesh::{MeshError, TriangleMesh};
 pub use plane_shadow::{PlaneFrame, PlaneShadow, ShadowKind};
 pub use shape::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle};
