@@ -106,6 +106,7 @@ impl OpenGl {
             msaa,
             visibility: request.visibility,
             shadows: true,
+            technique: antumbra::Technique::default(),
         };
         let start = Instant::now();
         let rendered = self.stage.render(request.scene, &options).map_err(CliError::OpenGl)?;

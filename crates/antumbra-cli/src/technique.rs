@@ -37,7 +37,8 @@ impl Technique {
     pub(crate) fn objection(self, scene: &Scene) -> Option<String> {
         match self {
             Self::Analytic => {
-                antumbra_host::describe(scene, &scene.moment(0.0)).err().map(|error| error.to_string())
+                let technique = antumbra::Technique::default();
+                antumbra_host::objection(scene, &scene.moment(0.0), &technique).map(|error| error.to_string())
             }
             Self::Raytraced => None,
         }

@@ -42,6 +42,14 @@ pub enum Error {
         /// Which texture: depth, normals or ids.
         image: &'static str,
     },
+    /// The technique cannot do what the frame asks for.
+    #[error("the technique {technique} {}", .refusal.reason)]
+    Refused {
+        /// Its name.
+        technique: &'static str,
+        /// What it cannot do.
+        refusal: crate::technique::Refusal,
+    },
     /// A light's numbers make no sense.
     #[error("bad light {index}: {reason}")]
     BadLight {

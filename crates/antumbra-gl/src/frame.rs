@@ -1,6 +1,7 @@
-//! What a host tells antumbra: its camera, its surfaces, its lights and what blocks them.
+//! What a host tells antumbra: its camera and what it has drawn.
 
-use glam::{DMat4, DVec3, Mat4, Vec3};
+use crate::scenery::{Light, MeshOccluder, Occluder, Receiver, Scenery};
+use glam::{DMat4, Mat4, Vec3};
 
 /// One frame of the host, as far as shadows are concerned.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +17,10 @@ pub struct Frame<'a> {
     pub lights: &'a [Light],
     /// What blocks them.
     pub occluders: &'a [Occluder],
+    /// Meshes that block them too, for the techniques that cast from triangles.
+    pub meshes: &'a [MeshOccluder],
+    /// The flat surfaces that techniques confined to planes draw shadows on; others do not ask.
+    pub receivers: &'a [Receiver],
     /// Half-spaces (the sides that the normals point to) that hold everything the host shows, such
     /// as the space above a floor that nothing is seen below; empty if there are none to tell. They
     /// save time where shadows would go on unseen. Opaque planes among the occluders, with an id,
@@ -24,6 +29,33 @@ pub struct Frame<'a> {
     /// Light from everywhere that no shadow takes away, linear RGB, in units of irradiance: a
     /// host that adds `albedo * ambient` to `albedo / π * Σ E` gives π times its `ambient`.
     pub ambient: Vec3,
+}
+
+impl<'a> Frame<'a> {
+    /// What a host has drawn, with no lights, nothing that blocks them and no ambient light yet.
+    pub fn new(camera: Camera, viewport: [i32; 4], surface: Surface) -> Self {
+        Self {
+            camera,
+            viewport,
+            surface,
+            lights: &[],
+            occluders: &[],
+            meshes: &[],
+            receivers: &[],
+            bounds: &[],
+            ambient: Vec3::ZERO,
+        }
+    }
+
+    /// The part of the frame that says what a technique is asked to do.
+    pub fn scenery(&self) -> Scenery<'a> {
+        Scenery {
+            lights: self.lights,
+            occluders: self.occluders,
+            meshes: self.meshes,
+            receivers: self.receivers,
+        }
+    }
 }
 
 /// The host's view and projection.
@@ -119,144 +151,4 @@ pub enum NormalSpace {
     World,
     /// View space.
     View,
-}
-
-/// A light: where it is, and what it sends.
-///
-/// A light whose place is not finite, or whose direction is zero, is off. Other numbers that make no
-/// sense are [`crate::Error::BadLight`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Light {
-    /// Where light comes from, world space.
-    pub place: antumbra_math::Light,
-    /// Linear RGB times intensity: candela, lux for a directional light. Finite, not negative.
-    pub intensity: Vec3,
-    /// Spot lights: the half-angle, radians, up to which the light is full; from 0 to the outer angle.
-    pub inner_angle: f32,
-    /// Constant, linear and quadratic attenuation with the distance: [0, 0, 1] is physical. Finite,
-    /// not negative, not all zero.
-    pub attenuation: [f32; 3],
-}
-
-impl Light {
-    /// A point light of `intensity` candela.
-    pub fn point(position: impl Into<DVec3>, intensity: Vec3) -> Self {
-        Self::new(antumbra_math::Light::Point { position: position.into() }, intensity)
-    }
-
-    /// A directional light of `illuminance` lux that travels along `direction` (any length but zero).
-    pub fn directional(direction: impl Into<DVec3>, illuminance: Vec3) -> Self {
-        let direction = direction.into().normalize_or_zero();
-        Self::new(antumbra_math::Light::Directional { direction }, illuminance)
-    }
-
-    /// A spot light of `intensity` candela that shines along `direction` (any length but zero),
-    /// full within `inner_angle`, nothing outside `outer_angle` (half-angles, radians), with the
-    /// falloff of glTF's KHR_lights_punctual between.
-    pub fn spot(
-        position: impl Into<DVec3>,
-        direction: impl Into<DVec3>,
-        inner_angle: f32,
-        outer_angle: f32,
-        intensity: Vec3,
-    ) -> Self {
-        let place = antumbra_math::Light::Spot {
-            position: position.into(),
-            direction: direction.into().normalize_or_zero(),
-            outer_angle: outer_angle.into(),
-        };
-        Self { inner_angle, ..Self::new(place, intensity) }
-    }
-
-    /// What is wrong with the light's numbers, if anything.
-    pub(crate) fn fault(&self) -> Option<&'static str> {
-        let sane = |x: f32| x.is_finite() && x >= 0.0;
-        if !self.intensity.to_array().into_iter().all(sane) {
-            return Some("its intensity is negative or not finite");
-        }
-        if !self.attenuation.into_iter().all(sane) || self.attenuation == [0.0; 3] {
-            return Some("its attenuation is negative, not finite, or all zero");
-        }
-        if let antumbra_math::Light::Spot { outer_angle, .. } = self.place {
-            let angles_fit = sane(self.inner_angle) && f64::from(self.inner_angle) <= outer_angle + 1e-6;
-            if !angles_fit || outer_angle > std::f64::consts::PI {
-                return Some("a spot's half-angles must be 0 <= inner <= outer <= π");
-            }
-        }
-        None
-    }
-
-    fn new(place: antumbra_math::Light, intensity: Vec3) -> Self {
-        Self { place, intensity, inner_angle: 0.0, attenuation: [0.0, 0.0, 1.0] }
-    }
-}
-
-/// A shape that blocks light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Occluder {
-    /// The shape, world space.
-    pub shape: antumbra_math::Shape,
-    /// The number that the host's id texture shows where this occluder is seen: not 0, below
-    /// [`NO_SHADOW`]. Several occluders may share one: they are one solid and do not shadow each
-    /// other. 0 for an occluder that the host does not draw, or a host without ids.
-    pub id: u32,
-}
-
-impl Occluder {
-    /// An occluder without an id.
-    pub fn new(shape: antumbra_math::Shape) -> Self {
-        Self { shape, id: 0 }
-    }
-
-    /// The same with an id.
-    pub fn with_id(self, id: u32) -> Self {
-        Self { id, ..self }
-    }
-
-    /// A ball.
-    pub fn sphere(center: impl Into<DVec3>, radius: f64) -> Self {
-        Self::new(antumbra_math::Sphere { center: center.into(), radius }.into())
-    }
-
-    /// A disc, seen and blocking from both sides.
-    pub fn disc(center: impl Into<DVec3>, normal: impl Into<DVec3>, radius: f64) -> Self {
-        let normal = normal.into().normalize_or_zero();
-        Self::new(antumbra_math::Disc { center: center.into(), normal, radius }.into())
-    }
-
-    /// A triangle, seen and blocking from both sides.
-    pub fn triangle(vertices: [impl Into<DVec3>; 3]) -> Self {
-        Self::new(antumbra_math::Triangle { vertices: vertices.map(Into::into) }.into())
-    }
-
-    /// A flat rectangle around `center`, seen and blocking from both sides; `half_right` and
-    /// `half_forward` reach from there to the middles of two neighbouring sides, at right angles.
-    pub fn rectangle(
-        center: impl Into<DVec3>,
-        half_right: impl Into<DVec3>,
-        half_forward: impl Into<DVec3>,
-    ) -> Self {
-        let (center, half_right, half_forward) = (center.into(), half_right.into(), half_forward.into());
-        Self::new(antumbra_math::Rectangle { center, half_right, half_forward }.into())
-    }
-
-    /// An infinite plane, which takes the light from everything on its other side.
-    pub fn plane(point: impl Into<DVec3>, normal: impl Into<DVec3>) -> Self {
-        Self::new(antumbra_math::Plane::through(point.into(), normal.into().normalize_or_zero()).into())
-    }
-
-    /// A shape in its own space, placed in the world by the host's model matrix: rotation, uniform
-    /// scale and translation. `None` for any other matrix, under which a ball would not be a ball.
-    pub fn placed(shape: impl Into<antumbra_math::Shape>, model: Mat4) -> Option<Self> {
-        shape.into().placed(&model.as_dmat4()).map(Self::new)
-    }
-
-    /// A solid cone.
-    pub fn cone(base_center: impl Into<DVec3>, apex: impl Into<DVec3>, radius: f64) -> Self {
-        let (base_center, apex) = (base_center.into(), apex.into());
-        let along = apex - base_center;
-        let (axis, height) =
-            if along.is_finite() { along.normalize_and_length() } else { (DVec3::NAN, f64::NAN) };
-        Self::new(antumbra_math::Cone { base_center, axis, radius, height }.into())
-    }
 }

@@ -1,4 +1,4 @@
-//! Analytic shadows for an OpenGL renderer of your own.
+//! Shadows for an OpenGL renderer of your own.
 //!
 //! The crate `antumbra` re-exports this one; its documentation has the quick start.
 
@@ -7,18 +7,26 @@ mod error;
 mod frame;
 mod host_target;
 mod lights;
+mod mesh_buffers;
+mod overlay;
 mod pairs;
 mod proxy;
 mod renderer;
 mod resources;
+mod scenery;
 mod shader;
 mod state;
+mod surface;
+pub mod technique;
 mod tiles;
 mod view;
 
 pub use caps::{Caps, Tier};
 pub use error::Error;
-pub use frame::{Camera, DepthFormat, Frame, Light, NO_SHADOW, NormalSpace, Normals, Occluder, Surface};
+pub use frame::{Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, Surface};
 pub use lights::ShaderLight;
+pub use overlay::Encoding;
 pub use pairs::BATCH_LIGHTS;
-pub use renderer::{Encoding, MaskBatch, Renderer, Stats};
+pub use renderer::{MaskBatch, Renderer, Stats};
+pub use scenery::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery};
+pub use technique::Technique;

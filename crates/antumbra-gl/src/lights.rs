@@ -1,7 +1,7 @@
 //! What arrives from a light without occluders, and the lights in the shaders' numbers.
 
-use crate::frame::Light;
 use crate::pairs::BATCH_LIGHTS;
+use crate::scenery::Light;
 use crate::view::View;
 use antumbra_math::Light as Place;
 use glam::{Vec3, Vec4};

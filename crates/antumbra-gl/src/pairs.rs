@@ -1,8 +1,7 @@
 //! The pairs of light and occluder of one batch, culled and packed for upload.
 
-use crate::frame::{Light, Occluder};
 use crate::proxy::ProxyBuilder;
-use crate::shader::ProgramId;
+use crate::scenery::{Light, Occluder};
 use crate::tiles::TileGrid;
 use crate::view::View;
 use antumbra_math::blocking::{Blocker, Blockers};
@@ -30,13 +29,15 @@ pub(crate) struct Vertex {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Draw {
     pub(crate) group: usize,
-    pub(crate) program: ProgramId,
+    /// The kind of blocker: which program.
+    pub(crate) kind: usize,
     pub(crate) first: i32,
     pub(crate) count: i32,
 }
 
-const KINDS: [ProgramId; 3] = [ProgramId::Sphere, ProgramId::Disc, ProgramId::Polygon];
-const LISTS: usize = KINDS.len() * (BATCH_LIGHTS / GROUP_LIGHTS);
+/// Kinds of blocker: sphere, disc, polygon.
+const KINDS: usize = 3;
+const LISTS: usize = KINDS * (BATCH_LIGHTS / GROUP_LIGHTS);
 
 /// Packs batches; keeps its memory from one to the next.
 #[derive(Default)]
@@ -51,10 +52,6 @@ pub(crate) struct PairBuilder {
     pub(crate) vertices: Vec<Vertex>,
     /// The draws of the batch.
     pub(crate) draws: Vec<Draw>,
-    /// First and number of the vertices that cover the touched tiles.
-    pub(crate) screen_draw: (i32, i32),
-    /// The tiles that the batch's polygons touch, and those of the whole frame.
-    tiles: [TileGrid; 2],
     /// Pairs that were looked at, and polygons that are drawn, since the frame began.
     pub(crate) counts: (usize, usize),
 }
@@ -63,7 +60,6 @@ impl PairBuilder {
     /// Takes the frame's occluders into view space.
     pub(crate) fn begin(&mut self, occluders: &[Occluder], bounds: &[Plane], view: &View) {
         self.counts = (0, 0);
-        self.tiles[1].reset(viewport_size(view));
         self.shapes_vs.clear();
         self.bounds_vs.clear();
         let eye_ws = view.view.inverse().transform_point3(DVec3::ZERO);
@@ -79,43 +75,37 @@ impl PairBuilder {
         }
     }
 
-    /// Packs the pairs of up to [`BATCH_LIGHTS`] lights.
-    pub(crate) fn pack(&mut self, lights: &[Light], view: &View) {
+    /// Packs the pairs of up to [`BATCH_LIGHTS`] lights, and touches the tiles that their polygons do.
+    pub(crate) fn pack(&mut self, lights: &[Light], view: &View, tiles: &mut TileGrid) {
         self.texels.clear();
-        self.tiles[0].reset(viewport_size(view));
         self.lists.iter_mut().for_each(Vec::clear);
         for (i, light) in lights.iter().enumerate() {
             if light.intensity == glam::Vec3::ZERO {
                 continue; // takes nothing away
             }
-            self.pack_light(i, &light.place.transformed(&view.view), view);
+            self.pack_light(i, &light.place.transformed(&view.view), view, tiles);
         }
         self.vertices.clear();
         self.draws.clear();
         for (i, list) in self.lists.iter().enumerate().filter(|(_, list)| !list.is_empty()) {
             self.draws.push(Draw {
-                group: i / KINDS.len(),
-                program: KINDS[i % KINDS.len()],
+                group: i / KINDS,
+                kind: i % KINDS,
                 first: self.vertices.len() as i32,
                 count: list.len() as i32,
             });
             self.vertices.extend_from_slice(list);
         }
-        let [batch, frame] = &mut self.tiles;
-        frame.add(batch);
-        self.screen_draw = pack_tiles(batch, &mut self.vertices);
     }
 
-    /// Packs the tiles that any batch of the frame has touched, and nothing else.
-    pub(crate) fn pack_frame_tiles(&mut self) {
-        self.texels.clear();
-        self.vertices.clear();
-        self.draws.clear();
-        self.screen_draw = pack_tiles(&self.tiles[1], &mut self.vertices);
-    }
-
-    fn pack_light(&mut self, index: usize, light_vs: &antumbra_math::Light, view: &View) {
-        let size = viewport_size(view);
+    fn pack_light(
+        &mut self,
+        index: usize,
+        light_vs: &antumbra_math::Light,
+        view: &View,
+        tiles: &mut TileGrid,
+    ) {
+        let size = view.size();
         for &(shape, id, center, radius) in &self.shapes_vs {
             self.counts.0 += 1;
             if !light_vs.may_reach(center, radius) || hides_its_own_shadow(&shape, id, light_vs) {
@@ -128,7 +118,7 @@ impl PairBuilder {
                     continue;
                 }
                 self.counts.1 += 1;
-                self.tiles[0].touch(polygon);
+                tiles.touch(polygon);
                 let first = self.texels.len() as u32;
                 let kind = pack_blocker(blocker, &mut self.texels);
                 let vertex = |p: DVec2| Vertex {
@@ -136,28 +126,13 @@ impl PairBuilder {
                     blocker: first * 4 + (index % GROUP_LIGHTS) as u32,
                     id,
                 };
-                let list = &mut self.lists[index / GROUP_LIGHTS * KINDS.len() + kind];
+                let list = &mut self.lists[index / GROUP_LIGHTS * KINDS + kind];
                 for corners in polygon[1..].windows(2) {
                     list.extend([polygon[0], corners[0], corners[1]].map(vertex));
                 }
             }
         }
     }
-}
-
-fn viewport_size(view: &View) -> DVec2 {
-    DVec2::new(f64::from(view.viewport[2]), f64::from(view.viewport[3]))
-}
-
-/// Two triangles a run of touched tiles; the first vertex and their number.
-fn pack_tiles(tiles: &TileGrid, vertices: &mut Vec<Vertex>) -> (i32, i32) {
-    let first = vertices.len();
-    let size = tiles.size();
-    tiles.runs(|a, b| {
-        let corners = [a, DVec2::new(b.x, a.y), b, a, b, DVec2::new(a.x, b.y)];
-        vertices.extend(corners.map(|p| Vertex { position: clip_position(p, size), blocker: 0, id: 0 }));
-    });
-    (first as i32, (vertices.len() - first) as i32)
 }
 
 /// From pixels of the viewport to clip space.
@@ -174,7 +149,7 @@ fn hides_its_own_shadow(shape: &Shape, id: u32, light_vs: &antumbra_math::Light)
     id != 0 && light_side * plane.height(DVec3::ZERO) > 0.0
 }
 
-/// Appends a blocker's texels, as its shader reads them, and says which of [`KINDS`] it is.
+/// Appends a blocker's texels, as its shader reads them, and says of which kind it is.
 fn pack_blocker(blocker: &Blocker<DVec3>, texels: &mut Vec<Vec4>) -> usize {
     match blocker.to_f32() {
         Blocker::Sphere(b) => {

@@ -1,18 +1,19 @@
 //! The renderer: a guest in the host's OpenGL.
 
-use crate::frame::{Frame, Light, Surface};
+use crate::frame::{Frame, Surface};
 use crate::host_target::{OtherBuffers, refuse_feedback};
-use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS, PairBuilder, Vertex};
-use crate::resources::{Target, TargetFormat, Upload};
-use crate::shader::{PROGRAMS, Program, ProgramId, Variant};
-use crate::state::{Blend, StateGuard};
+use crate::overlay::{Encoding, HostPicture, Overlay};
+use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS};
+use crate::resources::{Target, TargetFormat};
+use crate::scenery::Light;
+use crate::shader::{ProgramId, ProgramSet, Variant};
+use crate::state::StateGuard;
+use crate::technique::{Batch, Method, Pass, Technique};
+use crate::tiles::TileGrid;
 use crate::view::View;
-use crate::{Caps, Error, lights};
+use crate::{Caps, Error};
 use glow::HasContext;
 use std::sync::Arc;
-
-/// Uploads in flight, so that a batch does not wait for the one before it to be drawn.
-const UPLOADS: usize = 3;
 
 /// Adds shadows to what a host has drawn.
 ///
@@ -24,16 +25,21 @@ const UPLOADS: usize = 3;
 pub struct Renderer {
     gl: Arc<glow::Context>,
     caps: Caps,
-    /// Of each variant that has been used, the programs by [`ProgramId`].
-    programs: [Vec<Program>; Variant::COUNT],
-    uploads: Vec<Upload>,
-    next_upload: usize,
+    technique: Technique,
+    /// Of each technique that has been chosen, by its index.
+    loaded: Vec<Option<Loaded>>,
+    overlay: Overlay,
     visibility: [Option<Target>; BATCH_LIGHTS / GROUP_LIGHTS],
-    taken: Option<Target>,
-    all: Option<Target>,
-    pairs: PairBuilder,
-    light_data: lights::LightData,
+    /// The tiles that shadows touch: in a batch, in the frame.
+    batch_tiles: TileGrid,
+    frame_tiles: TileGrid,
     stats: Stats,
+}
+
+/// A technique's OpenGL objects.
+struct Loaded {
+    method: Box<dyn Method>,
+    programs: ProgramSet,
 }
 
 /// What the last frame did.
@@ -41,20 +47,10 @@ pub struct Renderer {
 pub struct Stats {
     /// Pairs of light and occluder.
     pub pairs: usize,
-    /// Bounding polygons drawn for them; pairs out of sight draw none.
+    /// Polygons drawn for them; pairs out of sight draw none.
     pub polygons: usize,
     /// Batches of lights.
     pub batches: usize,
-}
-
-/// How the host's pixels encode radiance, for [`Renderer::overlay`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Encoding {
-    /// Pixels are linear: float targets, or sRGB targets with `GL_FRAMEBUFFER_SRGB`. Exact.
-    Linear,
-    /// The host wrote radiance^(1/gamma): 2.2 for most hosts that encode in their shader. Exact
-    /// for a power curve, close for sRGB's.
-    Gamma(f32),
 }
 
 /// The visibility of up to [`BATCH_LIGHTS`] lights, for the host's own lighting.
@@ -72,31 +68,52 @@ pub struct MaskBatch {
 }
 
 impl Renderer {
-    /// Makes the OpenGL objects that do not depend on the frame.
+    /// A renderer of the technique `analytic`; makes the OpenGL objects that do not depend on the frame.
     ///
     /// # Errors
     /// [`Error::TooOld`], [`Error::Resource`].
     pub fn new(gl: Arc<glow::Context>) -> Result<Self, Error> {
         let caps = Caps::query(&gl)?;
+        let overlay = {
+            let _guard = StateGuard::new(&gl, caps);
+            // SAFETY: the guard is alive.
+            unsafe { Overlay::new(&gl)? }
+        };
         let mut renderer = Self {
-            gl: gl.clone(),
+            gl,
             caps,
-            programs: Default::default(),
-            uploads: Vec::new(),
-            next_upload: 0,
+            technique: Technique::default(),
+            loaded: Technique::NAMES.iter().map(|_| None).collect(),
+            overlay,
             visibility: [None, None],
-            taken: None,
-            all: None,
-            pairs: PairBuilder::default(),
-            light_data: lights::LightData::default(),
+            batch_tiles: TileGrid::default(),
+            frame_tiles: TileGrid::default(),
             stats: Stats::default(),
         };
-        let _guard = StateGuard::new(&gl, caps);
-        for _ in 0..UPLOADS {
-            // SAFETY: the guard is alive.
-            renderer.uploads.push(unsafe { Upload::new(&gl, size_of::<Vertex>() as i32)? });
-        }
+        renderer.set_technique(Technique::default())?;
         Ok(renderer)
+    }
+
+    /// Finds shadows in another way from the next frame on. What earlier techniques have made and compiled is
+    /// kept, so that changing back is free.
+    ///
+    /// # Errors
+    /// [`Error::Resource`]; the technique is then the one it was.
+    pub fn set_technique(&mut self, technique: Technique) -> Result<(), Error> {
+        let slot = &mut self.loaded[technique.index()];
+        if slot.is_none() {
+            let _guard = StateGuard::new(&self.gl, self.caps);
+            // SAFETY: the guard is alive.
+            let method = unsafe { technique.make(&self.gl, &self.caps)? };
+            *slot = Some(Loaded { method, programs: ProgramSet::default() });
+        }
+        self.technique = technique;
+        Ok(())
+    }
+
+    /// How shadows are found.
+    pub fn technique(&self) -> Technique {
+        self.technique
     }
 
     /// Compiles the shaders for surfaces like this one, unless it was done: the first frame with
@@ -118,11 +135,9 @@ impl Renderer {
             });
         }
         let variant = Variant::of(surface);
-        let programs = &mut self.programs[variant.index()];
-        while programs.len() < PROGRAMS.len() {
-            programs.push(Program::new(&self.gl, &self.caps, &PROGRAMS[programs.len()], variant)?);
-        }
-        Ok(())
+        let loaded = self.loaded[self.technique.index()].as_mut().expect("set_technique has made it");
+        loaded.programs.ensure(&self.gl, &self.caps, self.technique.programs(), variant)?;
+        self.overlay.warm_up(&self.gl, &self.caps, variant)
     }
 
     /// What the context can do.
@@ -136,56 +151,47 @@ impl Renderer {
     }
 
     /// Multiplies the pixels of the bound draw framebuffer's first colour buffer by
-    /// (Σ V E + ambient) / (Σ E + ambient): what a diffuse host would have drawn with shadows.
-    /// The framebuffer's other colour buffers are left alone.
+    /// (Σ V E + ambient) / (Σ E + ambient): what a diffuse host would have drawn with shadows; or, with a
+    /// technique that paints shadows, paints them. The framebuffer's other colour buffers are left alone.
     ///
     /// # Errors
-    /// [`Error::BadFrame`], [`Error::BadLight`], [`Error::Unsupported`], [`Error::SurfaceAttached`],
-    /// [`Error::Resource`]. The picture is then untouched.
+    /// [`Error::BadFrame`], [`Error::BadLight`], [`Error::Refused`], [`Error::Unsupported`],
+    /// [`Error::SurfaceAttached`], [`Error::Resource`]. The picture is then untouched.
     pub fn overlay(&mut self, frame: &Frame<'_>, encoding: Encoding) -> Result<(), Error> {
-        let gamma = match encoding {
-            Encoding::Linear => 1.0,
-            Encoding::Gamma(gamma) if gamma.is_finite() && gamma > 0.0 => gamma,
-            Encoding::Gamma(_) => return Err(Error::BadFrame("the encoding's gamma is not positive")),
-        };
-        let view = View::new(frame, &self.caps)?;
-        if frame.lights.len() > BATCH_LIGHTS && !self.caps.float_targets() {
-            return Err(Error::Unsupported {
-                what: "an overlay of more than 8 lights",
-                needs: "floating-point render targets (EXT_color_buffer_float), or masks",
-            });
-        }
+        let gamma = encoding.gamma()?;
+        let view = self.check(frame)?;
         let gl = self.gl.clone();
         let guard = StateGuard::new(&gl, self.caps);
+        let host = HostPicture { framebuffer: guard.host_framebuffer(), gamma };
         // SAFETY: the guard is alive, the frame was checked, and whoever calls this vouches for
         // the textures of the surface.
         unsafe {
-            refuse_feedback(&gl, guard.host_framebuffer(), &frame.surface, self.caps)?;
+            refuse_feedback(&gl, host.framebuffer, &frame.surface, self.caps)?;
             self.prepare(frame, &view)?;
+            if self.paint(frame, &view, encoding, host)? {
+                return Ok(());
+            }
+            if frame.lights.len() > BATCH_LIGHTS && !self.caps.float_targets() {
+                return Err(Error::Unsupported {
+                    what: "an overlay of more than 8 lights",
+                    needs: "floating-point render targets (EXT_color_buffer_float), or masks",
+                });
+            }
             let one_batch = frame.lights.len() <= BATCH_LIGHTS;
-            let size = (view.viewport[2], view.viewport[3]);
             if !one_batch {
-                for slot in [&mut self.taken, &mut self.all] {
-                    Target::ensure(slot, &gl, TargetFormat::Rgba32F, size, frame.surface.samples)?;
-                    let target = slot.as_ref().expect("made above");
-                    gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
-                    gl.clear_buffer_f32_slice(glow::COLOR, 0, &[0.0; 4]);
-                }
+                self.overlay.clear_sums(&gl, &view, &frame.surface)?;
             }
+            let program = if one_batch { ProgramId::Overlay } else { ProgramId::Taken };
             for lights in frame.lights.chunks(BATCH_LIGHTS) {
-                self.draw_visibility(lights, &view, &frame.surface)?;
-                if !self.pairs.draws.is_empty() {
-                    let pass = if one_batch { ProgramId::Overlay } else { ProgramId::Taken };
-                    self.draw_screen(pass, lights, frame, &view, gamma, &guard);
-                }
+                self.draw_visibility(lights, frame, &view)?;
+                self.draw_screen(program, lights, frame, &view, host)?;
             }
-            if !one_batch && self.stats.polygons > 0 {
-                self.pairs.pack_frame_tiles();
-                self.upload()?;
+            if !one_batch {
+                std::mem::swap(&mut self.batch_tiles, &mut self.frame_tiles);
                 for lights in frame.lights.chunks(BATCH_LIGHTS) {
-                    self.draw_screen(ProgramId::All, lights, frame, &view, gamma, &guard);
+                    self.draw_screen(ProgramId::All, lights, frame, &view, host)?;
                 }
-                self.draw_screen(ProgramId::Ratio, &[], frame, &view, gamma, &guard);
+                self.draw_screen(ProgramId::Ratio, &[], frame, &view, host)?;
             }
         }
         Ok(())
@@ -197,9 +203,10 @@ impl Renderer {
     /// with several only inside `shade`.
     ///
     /// # Errors
-    /// [`Error::BadFrame`], [`Error::BadLight`], [`Error::Unsupported`], [`Error::Resource`].
+    /// [`Error::BadFrame`], [`Error::BadLight`], [`Error::Refused`], [`Error::Unsupported`],
+    /// [`Error::Resource`].
     pub fn masks(&mut self, frame: &Frame<'_>, mut shade: impl FnMut(&MaskBatch)) -> Result<(), Error> {
-        let view = View::new(frame, &self.caps)?;
+        let view = self.check(frame)?;
         let gl = self.gl.clone();
         for (i, lights) in frame.lights.chunks(BATCH_LIGHTS).enumerate() {
             let guard = StateGuard::new(&gl, self.caps);
@@ -209,7 +216,7 @@ impl Renderer {
                 if i == 0 {
                     self.prepare(frame, &view)?;
                 }
-                self.draw_visibility(lights, &view, &frame.surface)?;
+                self.draw_visibility(lights, frame, &view)?;
             }
             drop(guard);
             let [Some(a), Some(b)] = &self.visibility else { continue };
@@ -222,7 +229,16 @@ impl Renderer {
         Ok(())
     }
 
-    /// Targets of the frame's size, occluders in its view space.
+    /// Whether the numbers make sense and the technique can do it.
+    fn check(&self, frame: &Frame<'_>) -> Result<View, Error> {
+        let view = View::new(frame, &self.caps)?;
+        match self.technique.refusal(&frame.scenery()) {
+            Some(refusal) => Err(Error::Refused { technique: self.technique.name(), refusal }),
+            None => Ok(view),
+        }
+    }
+
+    /// Targets of the frame's size; the technique's own preparations.
     ///
     /// # Safety
     /// A [`StateGuard`] is alive.
@@ -233,9 +249,30 @@ impl Renderer {
             // SAFETY: the caller's.
             unsafe { Target::ensure(slot, &self.gl, TargetFormat::Rgba8, size, frame.surface.samples)? };
         }
-        self.pairs.begin(frame.occluders, frame.bounds, view);
         self.stats = Stats::default();
-        Ok(())
+        self.frame_tiles.reset(view.size());
+        let (method, pass, ..) = self.pass(frame, view);
+        // SAFETY: the caller's.
+        unsafe { method.begin(&pass) }
+    }
+
+    /// The method, what it is to work on, its targets and its tiles.
+    fn pass<'a>(
+        &'a mut self,
+        frame: &'a Frame<'a>,
+        view: &'a View,
+    ) -> (&'a mut dyn Method, Pass<'a>, [&'a Target; 2], &'a mut TileGrid) {
+        let loaded = self.loaded[self.technique.index()].as_mut().expect("set_technique has made it");
+        let pass = Pass {
+            gl: &self.gl,
+            caps: &self.caps,
+            frame,
+            view,
+            technique: &self.technique,
+            programs: loaded.programs.of(Variant::of(&frame.surface)),
+        };
+        let masks = self.visibility.each_ref().map(|target| target.as_ref().expect("prepare has made it"));
+        (loaded.method.as_mut(), pass, masks, &mut self.batch_tiles)
     }
 
     /// Draws the visibility of one batch of lights.
@@ -245,123 +282,73 @@ impl Renderer {
     unsafe fn draw_visibility(
         &mut self,
         lights: &[Light],
+        frame: &Frame<'_>,
         view: &View,
-        surface: &Surface,
     ) -> Result<(), Error> {
-        self.pairs.pack(lights, view);
-        self.stats.batches += 1;
-        (self.stats.pairs, self.stats.polygons) = self.pairs.counts;
+        let (method, pass, masks, tiles) = self.pass(frame, view);
+        tiles.reset(view.size());
         // SAFETY: the caller's.
         unsafe {
-            if !self.pairs.draws.is_empty() {
-                self.upload()?;
-            }
-            let gl = &self.gl;
+            let gl = pass.gl;
             gl.viewport(0, 0, view.viewport[2], view.viewport[3]);
-            Blend::Min.apply(gl, self.caps);
-            let programs = &self.programs[Variant::of(surface).index()];
-            for (group, target) in self.visibility.iter().flatten().enumerate() {
+            for target in masks {
                 gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
                 gl.clear_buffer_f32_slice(glow::COLOR, 0, &[1.0; 4]);
-                for draw in self.pairs.draws.iter().filter(|draw| draw.group == group) {
-                    let program = &programs[draw.program as usize];
-                    gl.use_program(Some(program.raw));
-                    gl.uniform_1_i32(program.uniforms.blockers.as_ref(), 3);
-                    set_surface(gl, program, view, surface, [view.viewport[0], view.viewport[1]]);
-                    gl.draw_arrays(glow::TRIANGLES, draw.first, draw.count);
-                }
             }
+            method.draw_visibility(&pass, &mut Batch { lights, masks, tiles })?;
         }
+        let (pairs, polygons) = method.counts();
+        self.stats = Stats { pairs, polygons, batches: self.stats.batches + 1 };
+        self.frame_tiles.add(&self.batch_tiles);
         Ok(())
     }
 
-    /// Uploads what was packed, and binds its vertices, and its blockers to unit 3.
+    /// Lets the technique paint, if it does; whether it did.
     ///
     /// # Safety
-    /// A [`StateGuard`] is alive.
-    unsafe fn upload(&mut self) -> Result<(), Error> {
-        let vertices = bytemuck::cast_slice(&self.pairs.vertices);
+    /// As for [`Self::draw_visibility`].
+    unsafe fn paint(
+        &mut self,
+        frame: &Frame<'_>,
+        view: &View,
+        encoding: Encoding,
+        host: HostPicture,
+    ) -> Result<bool, Error> {
+        let (method, pass, ..) = self.pass(frame, view);
+        let Some(painter) = method.painter(&pass) else { return Ok(false) };
+        let (gl, [x, y, width, height]) = (pass.gl, view.viewport);
         // SAFETY: the caller's.
         unsafe {
-            // All grow together, so that none has to in a later frame.
-            for upload in &mut self.uploads {
-                upload.reserve(&self.gl, &self.caps, vertices.len(), self.pairs.texels.len())?;
+            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
+            gl.viewport(x, y, width, height);
+            let others = OtherBuffers::leave_alone(gl, *pass.caps, host.framebuffer);
+            let painted = painter.paint(&pass, encoding);
+            if let Some(others) = others {
+                gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
+                others.restore(gl);
             }
-            let upload = &self.uploads[self.next_upload];
-            self.next_upload = (self.next_upload + 1) % UPLOADS;
-            upload.fill(&self.gl, vertices, &mut self.pairs.texels);
-            self.gl.bind_vertex_array(Some(upload.vertex_array));
-            bind_texture(&self.gl, 3, 1, upload.texture);
+            painted?;
         }
-        Ok(())
+        let (pairs, polygons) = method.counts();
+        self.stats = Stats { pairs, polygons, batches: 1 };
+        Ok(true)
     }
 
-    /// Draws one of the passes over the tiles that shadows touch.
+    /// Draws one of the overlay's passes over the batch's tiles.
     ///
     /// # Safety
     /// As for [`Self::draw_visibility`].
     unsafe fn draw_screen(
         &mut self,
-        pass: ProgramId,
+        program: ProgramId,
         lights: &[Light],
         frame: &Frame<'_>,
         view: &View,
-        gamma: f32,
-        guard: &StateGuard<'_>,
-    ) {
-        let gl = &self.gl;
-        let samples = frame.surface.samples;
-        let program = &self.programs[Variant::of(&frame.surface).index()][pass as usize];
-        let [x, y, width, height] = view.viewport;
-        let own_target = match pass {
-            ProgramId::Taken => self.taken.as_ref(),
-            ProgramId::All => self.all.as_ref(),
-            _ => None,
-        };
-        // The host's framebuffer has the viewport's corner at (x, y), antumbra's own at (0, 0).
-        let (framebuffer, corner, surface_offset, visibility_offset) = match own_target {
-            Some(target) => (Some(target.framebuffer), [0, 0], [x, y], [0, 0]),
-            None => (guard.host_framebuffer(), [x, y], [0, 0], [-x, -y]),
-        };
+        host: HostPicture,
+    ) -> Result<(), Error> {
+        let Self { gl, caps, overlay, batch_tiles, visibility, .. } = self;
         // SAFETY: the caller's.
-        unsafe {
-            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, framebuffer);
-            gl.viewport(corner[0], corner[1], width, height);
-            let blend = if own_target.is_some() { Blend::Add } else { Blend::Multiply };
-            blend.apply(gl, self.caps);
-            gl.use_program(Some(program.raw));
-            set_surface(gl, program, view, &frame.surface, surface_offset);
-            let u = &program.uniforms;
-            let inputs = match pass {
-                ProgramId::All => [(&u.taken, &self.taken), (&u.all, &None)],
-                ProgramId::Ratio => [(&u.taken, &self.taken), (&u.all, &self.all)],
-                _ => [(&u.visibility_0, &self.visibility[0]), (&u.visibility_1, &self.visibility[1])],
-            };
-            for (unit, (location, target)) in (3..).zip(inputs) {
-                if let Some(target) = target {
-                    gl.uniform_1_i32(location.as_ref(), unit);
-                    bind_texture(gl, unit as u32, samples, target.texture);
-                }
-            }
-            gl.uniform_2_i32(u.visibility_offset.as_ref(), visibility_offset[0], visibility_offset[1]);
-            gl.uniform_3_f32_slice(u.ambient.as_ref(), &frame.ambient.to_array());
-            gl.uniform_1_f32(u.gamma.as_ref(), gamma);
-            if !lights.is_empty() {
-                let data = self.light_data.pack(lights, view);
-                gl.uniform_4_f32_slice(u.lights.as_ref(), bytemuck::cast_slice(data));
-                gl.uniform_1_i32(u.light_count.as_ref(), lights.len() as i32);
-            }
-            let others = if own_target.is_none() {
-                OtherBuffers::leave_alone(gl, self.caps, framebuffer)
-            } else {
-                None
-            };
-            let (first, count) = self.pairs.screen_draw;
-            gl.draw_arrays(glow::TRIANGLES, first, count);
-            if let Some(others) = others {
-                others.restore(gl);
-            }
-        }
+        unsafe { overlay.draw(gl, caps, program, lights, frame, view, batch_tiles, visibility, host) }
     }
 }
 
@@ -371,60 +358,12 @@ impl Drop for Renderer {
         // SAFETY: the objects are this renderer's own and not used afterwards; the context is
         // current, as the type's documentation demands.
         unsafe {
-            self.programs.iter().flatten().for_each(|p| gl.delete_program(p.raw));
-            self.uploads.iter().for_each(|upload| upload.delete(gl));
-            let targets = self.visibility.iter_mut().chain([&mut self.taken, &mut self.all]);
-            targets.filter_map(Option::take).for_each(|target| target.delete(gl));
-        }
-    }
-}
-
-/// # Safety
-/// A [`StateGuard`] is alive; the texture has that many samples.
-unsafe fn bind_texture(gl: &glow::Context, unit: u32, samples: u32, texture: glow::Texture) {
-    // SAFETY: the caller's.
-    unsafe {
-        gl.active_texture(glow::TEXTURE0 + unit);
-        let kind = if samples > 1 { glow::TEXTURE_2D_MULTISAMPLE } else { glow::TEXTURE_2D };
-        gl.bind_texture(kind, Some(texture));
-    }
-}
-
-/// Binds the surface's textures to units 0 to 2 and sets what surface.glsl reads.
-///
-/// # Safety
-/// A [`StateGuard`] is alive, `program` is in use, the surface's textures exist.
-unsafe fn set_surface(
-    gl: &glow::Context,
-    program: &Program,
-    view: &View,
-    surface: &Surface,
-    offset: [i32; 2],
-) {
-    let u = &program.uniforms;
-    let [x, y, width, height] = view.viewport;
-    // SAFETY: the caller's.
-    unsafe {
-        for (unit, (location, texture)) in [
-            (&u.depth, Some(surface.depth)),
-            (&u.normals, surface.normals.map(|n| n.texture)),
-            (&u.ids, surface.ids),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            // Samplers of different types may not share a unit, read or not.
-            gl.uniform_1_i32(location.as_ref(), unit as i32);
-            if let Some(texture) = texture {
-                bind_texture(gl, unit as u32, surface.samples, texture);
+            for loaded in self.loaded.iter_mut().flatten() {
+                loaded.method.delete(gl);
+                loaded.programs.delete(gl);
             }
+            self.overlay.delete(gl);
+            self.visibility.iter_mut().filter_map(Option::take).for_each(|target| target.delete(gl));
         }
-        gl.uniform_matrix_4_f32_slice(u.unproject.as_ref(), false, &view.unproject.to_cols_array());
-        gl.uniform_4_f32_slice(u.pixel_step.as_ref(), &view.pixel_step);
-        gl.uniform_3_f32_slice(u.background_depth.as_ref(), &view.background_depth);
-        gl.uniform_2_i32(u.surface_offset.as_ref(), offset[0], offset[1]);
-        gl.uniform_4_i32(u.surface_range.as_ref(), x, y, x + width - 1, y + height - 1);
-        gl.uniform_matrix_3_f32_slice(u.normal_to_view.as_ref(), false, &view.normal_to_view.to_cols_array());
-        gl.uniform_2_f32_slice(u.normal_decode.as_ref(), &view.normal_decode);
     }
 }

@@ -1,4 +1,4 @@
-//! The shader programs: every permutation is data in one list, compiled at start-up.
+//! The shader programs: every permutation is data in a list, compiled when it is first needed.
 
 use crate::frame::Surface;
 use crate::{Caps, Error};
@@ -16,35 +16,21 @@ pub(crate) struct Stage {
 pub(crate) struct ProgramSource {
     /// For error messages.
     pub(crate) name: &'static str,
-    vertex: Stage,
-    fragment: Stage,
+    pub(crate) vertex: Stage,
+    pub(crate) fragment: Stage,
+    /// Names of uniforms of its own, found in [`Program::own`] by their place in this list.
+    pub(crate) uniforms: &'static [&'static str],
 }
 
-const COVERAGE: &str = include_str!("shaders/coverage.glsl");
-const SURFACE: &str = include_str!("shaders/surface.glsl");
-const SCREEN: &str = include_str!("shaders/screen.vert.glsl");
+/// A pixel's footprint, and how much of it a half-plane covers.
+pub(crate) const COVERAGE: &str = include_str!("shaders/coverage.glsl");
+/// The host's surface behind a pixel; needs [`COVERAGE`].
+pub(crate) const SURFACE: &str = include_str!("shaders/surface.glsl");
+/// The vertex stage of passes over tiles of the viewport.
+pub(crate) const SCREEN: &str = include_str!("shaders/screen.vert.glsl");
 const LIGHTS: &str = include_str!("shaders/lights.glsl");
-const BLOCKER_VERTEX: &str = include_str!("shaders/blocker.vert.glsl");
-const BLOCKER_DATA: &str = include_str!("shaders/blocker_data.glsl");
-const BLOCKER_FRAGMENT: &str = include_str!("shaders/blocker.frag.glsl");
 const IRRADIANCE: &str = include_str!("shaders/irradiance.frag.glsl");
 const RATIO: &str = include_str!("shaders/ratio.frag.glsl");
-
-macro_rules! blocker_program {
-    ($name:literal, $texels:literal, $file:literal) => {
-        ProgramSource {
-            name: $name,
-            vertex: Stage {
-                defines: concat!("#define BLOCKER_TEXELS ", $texels, "\n"),
-                parts: &[BLOCKER_VERTEX],
-            },
-            fragment: Stage {
-                defines: concat!("#define BLOCKER_TEXELS ", $texels, "\n"),
-                parts: &[COVERAGE, SURFACE, BLOCKER_DATA, include_str!($file), BLOCKER_FRAGMENT],
-            },
-        }
-    };
-}
 
 const fn screen_program(
     name: &'static str,
@@ -55,6 +41,7 @@ const fn screen_program(
         name,
         vertex: Stage { defines: "", parts: &[SCREEN] },
         fragment: Stage { defines, parts },
+        uniforms: &[],
     }
 }
 
@@ -91,24 +78,19 @@ impl Variant {
     }
 }
 
-/// Every program, in the order of [`ProgramId`].
-pub(crate) const PROGRAMS: [ProgramSource; 7] = [
-    blocker_program!("sphere", "2", "shaders/sphere.glsl"),
-    blocker_program!("disc", "3", "shaders/disc.glsl"),
-    blocker_program!("polygon", "5", "shaders/polygon.glsl"),
+/// The programs of the overlay, whatever the technique, in the order of [`ProgramId`]. Those of the techniques
+/// are listed in their files.
+pub(crate) const OVERLAY_PROGRAMS: [ProgramSource; 4] = [
     screen_program("overlay", "#define OVERLAY\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
     screen_program("taken", "#define TAKEN\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
     screen_program("all", "#define ALL\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
     screen_program("ratio", "", &[COVERAGE, SURFACE, RATIO]),
 ];
 
-/// Indices into [`PROGRAMS`].
+/// Indices into [`OVERLAY_PROGRAMS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub(crate) enum ProgramId {
-    Sphere,
-    Disc,
-    Polygon,
     Overlay,
     Taken,
     All,
@@ -144,6 +126,43 @@ impl ProgramSource {
 pub(crate) struct Program {
     pub(crate) raw: glow::Program,
     pub(crate) uniforms: Uniforms,
+    /// Where [`ProgramSource::uniforms`] are.
+    pub(crate) own: Vec<Option<glow::UniformLocation>>,
+}
+
+/// Programs of one list for each variant, compiled when a variant is first asked for.
+#[derive(Default)]
+pub(crate) struct ProgramSet {
+    variants: [Vec<Program>; Variant::COUNT],
+}
+
+impl ProgramSet {
+    /// Compiles the programs of a variant, unless it was done.
+    pub(crate) fn ensure(
+        &mut self,
+        gl: &glow::Context,
+        caps: &Caps,
+        sources: &[ProgramSource],
+        variant: Variant,
+    ) -> Result<(), Error> {
+        let programs = &mut self.variants[variant.index()];
+        while programs.len() < sources.len() {
+            programs.push(Program::new(gl, caps, &sources[programs.len()], variant)?);
+        }
+        Ok(())
+    }
+
+    /// The programs of a variant, in the order of their list; none before [`Self::ensure`].
+    pub(crate) fn of(&self, variant: Variant) -> &[Program] {
+        &self.variants[variant.index()]
+    }
+
+    /// # Safety
+    /// The context is current, and the programs are not used afterwards.
+    pub(crate) unsafe fn delete(&self, gl: &glow::Context) {
+        // SAFETY: the caller's.
+        self.variants.iter().flatten().for_each(|p| unsafe { gl.delete_program(p.raw) });
+    }
 }
 
 macro_rules! uniforms {
@@ -200,8 +219,11 @@ impl Program {
     ) -> Result<Self, Error> {
         let raw = link(gl, source.name, &source.sources(!caps.is_desktop(), variant))?;
         // SAFETY: linked above.
-        let uniforms = unsafe { Uniforms::find(gl, raw) };
-        Ok(Self { raw, uniforms })
+        let (uniforms, own) = unsafe {
+            let own = source.uniforms.iter().map(|name| gl.get_uniform_location(raw, name)).collect();
+            (Uniforms::find(gl, raw), own)
+        };
+        Ok(Self { raw, uniforms, own })
     }
 }
 

@@ -1,5 +1,9 @@
 //! Leaves every piece of OpenGL state as it was found.
 
+mod raster;
+
+pub(crate) use raster::RasterGuard;
+
 use crate::Caps;
 use glow::HasContext;
 

@@ -27,9 +27,14 @@ impl TileGrid {
         self.touched.resize(self.columns * self.rows, false);
     }
 
-    /// The viewport's size, pixels.
-    pub(crate) fn size(&self) -> DVec2 {
-        self.size
+    /// Touches every tile.
+    pub(crate) fn touch_all(&mut self) {
+        self.touched.fill(true);
+    }
+
+    /// Whether no tile is touched.
+    pub(crate) fn is_untouched(&self) -> bool {
+        !self.touched.contains(&true)
     }
 
     /// Touches the tiles that a convex polygon inside the viewport meets.
@@ -67,9 +72,17 @@ impl TileGrid {
         self.touched.iter_mut().zip(&other.touched).for_each(|(t, o)| *t |= o);
     }
 
+    /// Appends two triangles for each run of touched tiles, in clip space.
+    pub(crate) fn triangles(&self, vertices: &mut Vec<[f32; 2]>) {
+        self.runs(|a, b| {
+            let corners = [a, DVec2::new(b.x, a.y), b, a, b, DVec2::new(a.x, b.y)];
+            vertices.extend(corners.map(|p| (p / self.size * 2.0 - 1.0).as_vec2().to_array()));
+        });
+    }
+
     /// Calls `rectangle` with the lower left and the upper right corner, in pixels, of runs of
     /// touched tiles.
-    pub(crate) fn runs(&self, mut rectangle: impl FnMut(DVec2, DVec2)) {
+    fn runs(&self, mut rectangle: impl FnMut(DVec2, DVec2)) {
         for (y, row) in self.touched.chunks_exact(self.columns.max(1)).enumerate() {
             let mut x = 0;
             for run in row.chunk_by(|a, b| a == b) {
@@ -129,6 +142,12 @@ mod tests {
         grid.reset(size);
         assert!(covered(&grid).is_empty(), "no polygon, no tile");
         grid.touch(&[DVec2::ZERO, DVec2::new(33.0, 0.0), size, DVec2::new(0.0, 17.0)]);
-        assert_eq!(covered(&grid), [(0.0, 0.0, 33.0, 16.0), (0.0, 16.0, 33.0, 17.0)], "two rows of tiles");
+        let whole = [(0.0, 0.0, 33.0, 16.0), (0.0, 16.0, 33.0, 17.0)];
+        assert_eq!(covered(&grid), whole, "two rows of tiles");
+        let mut all = TileGrid::default();
+        all.reset(size);
+        assert!(all.is_untouched(), "nothing yet");
+        all.touch_all();
+        assert!(covered(&all) == whole && !all.is_untouched(), "the same tiles");
     }
 }

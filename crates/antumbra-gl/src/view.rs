@@ -2,7 +2,7 @@
 
 use crate::frame::{Frame, NormalSpace};
 use crate::{Caps, Error};
-use glam::{DMat3, DMat4, DVec3, DVec4, Mat3, Mat4};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat3, Mat4};
 
 /// Everything about a frame but its lights and occluders.
 pub(crate) struct View {
@@ -28,6 +28,11 @@ pub(crate) struct View {
 }
 
 impl View {
+    /// The viewport's size, pixels.
+    pub(crate) fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.viewport[2]), f64::from(self.viewport[3]))
+    }
+
     /// Checks the frame and prepares its numbers.
     pub(crate) fn new(frame: &Frame<'_>, caps: &Caps) -> Result<Self, Error> {
         let (view, projection) = (frame.camera.view, frame.camera.projection);
@@ -58,8 +63,13 @@ impl View {
                 return Err(Error::BadLight { index, reason });
             }
         }
-        if frame.occluders.iter().any(|o| o.id >= crate::NO_SHADOW) {
+        let mut ids = frame.occluders.iter().map(|o| o.id).chain(frame.meshes.iter().map(|m| m.id));
+        if ids.any(|id| id >= crate::NO_SHADOW) {
             return Err(Error::BadFrame("an occluder's id is not below NO_SHADOW"));
+        }
+        let places = |m: &DMat4| m.is_finite() && m.row(3) == DVec4::W && m.determinant() != 0.0;
+        if !frame.meshes.iter().all(|mesh| places(&mesh.model)) {
+            return Err(Error::BadFrame("a mesh's model matrix is not affine, not finite, or flat"));
         }
         if !frame.ambient.is_finite() || frame.ambient.min_element() < 0.0 {
             return Err(Error::BadFrame("the ambient light is negative or not finite"));

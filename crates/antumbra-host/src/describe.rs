@@ -1,71 +1,158 @@
 //! A scene in antumbra's terms: what any host's author writes once.
 
 use crate::HostError;
-use antumbra::math::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle};
-use antumbra::{Light, Occluder};
+use antumbra::glam::{DMat4, DVec3};
+use antumbra::math::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle, TriangleMesh};
+use antumbra::technique::Part;
+use antumbra::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery, Technique};
 use antumbra_scene::{self as scene, LightKind, Moment, Scene};
+use std::sync::Arc;
 
-/// The lights and occluders of one moment.
+/// Sides of a tessellated circle, as antumbra's techniques have them for the shapes they tessellate.
+pub(crate) const SEGMENTS: u32 = 128;
+
+/// The lights, occluders and receivers of one moment. Ids are the primitive's index plus one.
 #[derive(Clone, Debug, Default)]
 pub struct Described {
     /// In the scene's order.
     pub lights: Vec<Light>,
-    /// Of the primitives that cast shadows; ids are the primitive's index plus one.
+    /// Of the primitives that cast shadows and have a shape that antumbra knows.
     pub occluders: Vec<Occluder>,
+    /// Of the other primitives that cast shadows: meshes, and shapes tessellated.
+    pub meshes: Vec<MeshOccluder>,
+    /// The planes and rectangles that receive shadows.
+    pub receivers: Vec<Receiver>,
 }
 
-/// The hint for what only the reference draws.
-const TRACE: &str = "draw it with the reference: antumbra trace, or --technique raytraced";
-
-/// Describes lights and occluders to antumbra.
-///
-/// # Errors
-/// [`HostError::Unsupported`] names the first light or object that hard analytic shadows cannot do.
-pub fn describe(scene: &Scene, moment: &Moment) -> Result<Described, HostError> {
-    let lights = moment.lights.iter().map(light).collect::<Result<_, _>>()?;
-    let mut occluders = Vec::new();
-    for (i, primitive) in moment.primitives.iter().enumerate() {
-        let shape = shape(primitive).ok_or_else(|| HostError::Unsupported {
-            object: format!("object \"{}\"", scene.objects[primitive.object].name),
-            what: format!("the technique analytic cannot draw the shape {} yet", kind_of(&primitive.shape)),
-            instead: TRACE.into(),
-        })?;
-        if primitive.casts_shadow {
-            occluders.push(Occluder::new(shape).with_id(i as u32 + 1));
+impl Described {
+    /// What techniques are asked to do.
+    pub fn scenery(&self) -> Scenery<'_> {
+        Scenery {
+            lights: &self.lights,
+            occluders: &self.occluders,
+            meshes: &self.meshes,
+            receivers: &self.receivers,
         }
     }
-    Ok(Described { lights, occluders })
 }
 
-fn light(light: &scene::Light) -> Result<Light, HostError> {
+/// Describes a scene to antumbra.
+///
+/// # Errors
+/// [`HostError::BadRequest`] for a mesh that is none; those of scene files are.
+pub fn describe(scene: &Scene, moment: &Moment) -> Result<Described, HostError> {
+    let mut described =
+        Described { lights: moment.lights.iter().map(light).collect(), ..Described::default() };
+    for (i, primitive) in moment.primitives.iter().enumerate() {
+        let id = i as u32 + 1;
+        let shape = shape(primitive);
+        if primitive.receives_shadow {
+            let flat = match shape {
+                Some(Shape::Plane(plane)) => Some(ReceiverShape::Plane(plane)),
+                Some(Shape::Rectangle(rectangle)) => Some(ReceiverShape::Rectangle(rectangle)),
+                _ => None,
+            };
+            described.receivers.extend(flat.map(|shape| Receiver { shape, id }));
+        }
+        if !primitive.casts_shadow {
+            continue;
+        }
+        if let Some(shape) = shape {
+            described.occluders.push(Occluder::new(shape).with_id(id));
+            continue;
+        }
+        let mesh = tessellated(&primitive.shape).map_err(|error| {
+            HostError::BadRequest(format!("object \"{}\": {error}", scene.objects[primitive.object].name))
+        })?;
+        let pose = &primitive.pose;
+        let model = DMat4::from_rotation_translation(pose.rotation, pose.translation);
+        described.meshes.push(MeshOccluder { mesh: Arc::new(mesh), model, id });
+    }
+    Ok(described)
+}
+
+/// What a technique cannot do of a scene: names the object, and the techniques that can. `None` if it can do it.
+pub fn objection(scene: &Scene, moment: &Moment, technique: &Technique) -> Option<HostError> {
+    let described = match describe(scene, moment) {
+        Ok(described) => described,
+        Err(error) => return Some(error),
+    };
+    let refusal = technique.refusal(&described.scenery())?;
+    let owner = |id: u32| &moment.primitives[id as usize - 1];
+    let named = |id: u32| format!("object \"{}\"", scene.objects[owner(id).object].name);
+    let mut what = format!("the technique {} {}", technique.name(), refusal.reason);
+    let object = match refusal.part {
+        Part::Light(i) => format!("light \"{}\"", moment.lights[i].name),
+        Part::Occluder(i) => named(described.occluders[i].id),
+        Part::Mesh(i) => {
+            let id = described.meshes[i].id;
+            let kind = kind_of(&owner(id).shape);
+            if kind != "mesh" {
+                what += &format!(", and this {kind} is drawn as one");
+            }
+            named(id)
+        }
+        Part::Receivers => "the scene".into(),
+        Part::Options => "the options".into(),
+    };
+    let able = Technique::all().filter(|other| other.refusal(&described.scenery()).is_none());
+    let mut names: Vec<&str> = able.map(|other| other.name()).collect();
+    names.push("raytraced");
+    Some(HostError::Unsupported { object, what, instead: format!("use --technique {}", names.join(" or ")) })
+}
+
+fn light(light: &scene::Light) -> Light {
     let intensity = (light.color * light.intensity).as_vec3();
-    Ok(match light.kind {
+    let at = |area| Light::point(light.position, intensity).with_area(area);
+    match light.kind {
         LightKind::Point => Light::point(light.position, intensity),
         LightKind::Directional { direction } => Light::directional(direction, intensity),
         LightKind::Spot { direction, inner_angle, outer_angle } => {
             Light::spot(light.position, direction, inner_angle as f32, outer_angle as f32, intensity)
         }
-        LightKind::Sphere { .. } | LightKind::Disc { .. } | LightKind::Rectangle { .. } => {
-            return Err(HostError::Unsupported {
-                object: format!("light \"{}\"", light.name),
-                what: "the technique analytic draws the hard shadows of point, spot and directional lights, and this one has an area".into(),
-                instead: TRACE.into(),
-            });
+        LightKind::Sphere { radius } => at(Area::Sphere { radius }),
+        LightKind::Disc { direction, radius } => at(Area::Disc { direction, radius }),
+        LightKind::Rectangle { direction, right, width, height } => {
+            let up = direction.cross(right);
+            let (half_right, half_up) = (right * (width * 0.5), up * (height * 0.5));
+            at(Area::Rectangle { direction, half_right, half_up })
         }
-    })
+    }
+}
+
+/// The triangles of a shape that antumbra has no shape for, in its own space.
+pub(crate) fn tessellated(shape: &scene::Shape) -> Result<TriangleMesh, antumbra::math::MeshError> {
+    match *shape {
+        scene::Shape::Plane => Err(antumbra::math::MeshError::NoTriangles),
+        scene::Shape::Rectangle { width, depth } => TriangleMesh::rectangle(width, depth),
+        scene::Shape::Disc { radius } => TriangleMesh::disc(radius, SEGMENTS),
+        scene::Shape::Triangle { vertices } => TriangleMesh::triangle(vertices),
+        scene::Shape::Sphere { radius } => TriangleMesh::sphere(radius, SEGMENTS),
+        scene::Shape::Ellipsoid { radii } => TriangleMesh::ellipsoid(radii, SEGMENTS),
+        scene::Shape::Cone { radius, height } => TriangleMesh::cone(radius, height, SEGMENTS),
+        scene::Shape::Cylinder { radius, height, radius_top } => {
+            TriangleMesh::cylinder(radius, height, radius_top, SEGMENTS)
+        }
+        scene::Shape::Capsule { radius, height } => TriangleMesh::capsule(radius, height, SEGMENTS),
+        scene::Shape::Box { size } => TriangleMesh::cuboid(size),
+        scene::Shape::Torus { major_radius, minor_radius } => {
+            TriangleMesh::torus(major_radius, minor_radius, SEGMENTS)
+        }
+        scene::Shape::Mesh(ref mesh) => TriangleMesh::new(mesh.positions.clone(), mesh.triangles.clone()),
+    }
 }
 
 /// The primitive's exact shape in the world; `None` for shapes antumbra does not have.
 pub(crate) fn shape(primitive: &scene::Primitive) -> Option<Shape> {
     let pose = &primitive.pose;
     let center = pose.translation;
-    let axis = pose.direction(glam::DVec3::Y);
+    let axis = pose.direction(DVec3::Y);
     Some(match primitive.shape {
         scene::Shape::Plane => Plane::through(center, axis).into(),
         scene::Shape::Rectangle { width, depth } => Rectangle {
             center,
-            half_right: pose.direction(glam::DVec3::X) * (width * 0.5),
-            half_forward: pose.direction(glam::DVec3::Z) * (depth * 0.5),
+            half_right: pose.direction(DVec3::X) * (width * 0.5),
+            half_forward: pose.direction(DVec3::Z) * (depth * 0.5),
         }
         .into(),
         scene::Shape::Disc { radius } => Disc { center, normal: axis, radius }.into(),

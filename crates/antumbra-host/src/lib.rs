@@ -13,7 +13,7 @@ mod stage;
 mod targets;
 
 pub use context::{Api, ContextInfo, HeadlessContext};
-pub use describe::{Described, describe};
+pub use describe::{Described, describe, objection};
 pub use error::HostError;
 pub use picture::{RenderOptions, Rendered};
 pub use stage::{Buffers, Setting, Stage};

@@ -1,12 +1,13 @@
 //! Pictures and visibilities read back from the stage.
 
 use crate::HostError;
+use crate::describe::objection;
 use crate::stage::{Buffers, Setting, Stage};
 use crate::targets::ColorFormat;
 use antumbra::glam::{DVec3, Vec3};
 use antumbra::math::Light as Place;
 use antumbra::math::blocking::half_plane_coverage;
-use antumbra::{BATCH_LIGHTS, ShaderLight};
+use antumbra::{BATCH_LIGHTS, ShaderLight, Technique};
 use antumbra_scene::Scene;
 use glow::{HasContext, PixelPackData};
 
@@ -25,6 +26,8 @@ pub struct RenderOptions {
     pub visibility: bool,
     /// Whether the picture has shadows.
     pub shadows: bool,
+    /// How they are found.
+    pub technique: Technique,
 }
 
 /// A picture, rows from top to bottom.
@@ -45,6 +48,10 @@ impl Stage {
     /// [`HostError::Unsupported`] names what cannot be drawn; see also [`Stage::draw`].
     pub fn render(&mut self, scene: &Scene, options: &RenderOptions) -> Result<Rendered, HostError> {
         let RenderOptions { width, height, .. } = *options;
+        if let Some(error) = objection(scene, &scene.moment(options.time), &options.technique) {
+            return Err(error);
+        }
+        self.set_technique(options.technique)?;
         let setting = Setting::new(scene, options.time, f64::from(width) / f64::from(height))?;
         self.draw(&setting, width, height, options.msaa, ColorFormat::Rgba16F, Buffers::All)?;
         if options.shadows {

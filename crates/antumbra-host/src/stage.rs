@@ -6,7 +6,9 @@ use crate::program::{MAX_LIGHTS, Program};
 use crate::targets::{ColorFormat, Targets};
 use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3, Vec3Swizzles, Vec4};
 use antumbra::math::Plane;
-use antumbra::{Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface};
+use antumbra::{
+    Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface, Technique,
+};
 use antumbra_scene::{Moment, Primitive, Scene, Shape};
 use glow::HasContext;
 use std::f32::consts::PI;
@@ -50,7 +52,7 @@ impl Setting {
     /// Prepares a scene at `time` for a picture of this shape.
     ///
     /// # Errors
-    /// [`HostError::Unsupported`] for lights and shapes that are not drawn.
+    /// As [`describe`].
     pub fn new(scene: &Scene, time: f64, aspect: f64) -> Result<Self, HostError> {
         let moment = scene.moment(time);
         let described = describe(scene, &moment)?;
@@ -139,6 +141,14 @@ impl Stage {
                 gl: gl.clone(),
             })
         }
+    }
+
+    /// Finds shadows in another way from now on.
+    ///
+    /// # Errors
+    /// [`HostError::Shadows`] for what the driver cannot make.
+    pub fn set_technique(&mut self, technique: Technique) -> Result<(), HostError> {
+        Ok(self.shadows.set_technique(technique)?)
     }
 
     /// The shadow renderer.
@@ -280,6 +290,8 @@ impl Stage {
             },
             lights: &setting.described.lights,
             occluders: &setting.described.occluders,
+            meshes: &setting.described.meshes,
+            receivers: &setting.described.receivers,
             bounds: &setting.bounds,
             ambient: setting.ambient,
         })

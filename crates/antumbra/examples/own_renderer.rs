@@ -53,13 +53,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lights = LIGHTS.map(|(position, intensity)| Light::point(position, intensity));
     let occluders = BALLS.map(|(center, radius)| Occluder::sphere(center, radius.into()));
     let frame = Frame {
-        camera: Camera::new(view, projection),
-        viewport: [0, 0, SIZE[0], SIZE[1]],
-        surface: Surface::from_depth(depth),
         lights: &lights,
         occluders: &occluders,
-        bounds: &[],
         ambient: Vec3::splat(0.3), // as in the shader
+        ..Frame::new(Camera::new(view, projection), [0, 0, SIZE[0], SIZE[1]], Surface::from_depth(depth))
     };
 
     // Way 1, overlay: one call after drawing.

@@ -1,11 +1,17 @@
 //! Every permutation of every program, by the driver and by the reference compiler.
 
-use super::{PROGRAMS, Program, Variant};
-use crate::Caps;
+use super::{OVERLAY_PROGRAMS, Program, ProgramSource, Variant};
+use crate::{Caps, Technique};
 use antumbra_host::{Api, HeadlessContext};
 use glow::HasContext;
 use std::io::Write;
 use std::process::{Command, Stdio};
+
+/// The overlay's programs and every technique's.
+fn programs() -> Vec<&'static ProgramSource> {
+    const OVERLAY: &[ProgramSource] = &OVERLAY_PROGRAMS;
+    OVERLAY.iter().chain(Technique::all().flat_map(|technique| technique.programs())).collect()
+}
 
 fn required() -> bool {
     std::env::var_os("ANTUMBRA_REQUIRE_GL").is_some()
@@ -26,7 +32,7 @@ fn every_permutation_compiles_and_links() {
         let caps = Caps::query(gl).expect("a context that antumbra runs on");
         let mut count = 0;
         for variant in Variant::all().filter(|v| !v.multisample || caps.sample_shading()) {
-            for source in &PROGRAMS {
+            for source in programs() {
                 let program = Program::new(gl, &caps, source, variant)
                     .unwrap_or_else(|e| panic!("{api:?}, {}, {variant:?}: {e}", source.name));
                 // SAFETY: made above.
@@ -35,7 +41,7 @@ fn every_permutation_compiles_and_links() {
             }
         }
         let variants = if caps.sample_shading() { Variant::COUNT } else { Variant::COUNT / 2 };
-        assert_eq!(count, PROGRAMS.len() * variants, "all of them");
+        assert_eq!(count, programs().len() * variants, "all of them");
         // SAFETY: asks for the error flag.
         assert_eq!(unsafe { gl.get_error() }, glow::NO_ERROR, "{api:?}");
     }
@@ -60,7 +66,7 @@ fn every_permutation_is_valid_glsl() {
     }
     for embedded in [false, true] {
         for variant in Variant::all().filter(|v| !(embedded && v.multisample)) {
-            for source in &PROGRAMS {
+            for source in programs() {
                 for (stage, text) in ["vert", "frag"].into_iter().zip(source.sources(embedded, variant)) {
                     let what = format!("{} {stage}, embedded {embedded}, {variant:?}", source.name);
                     validate(&what, stage, &text);

@@ -82,20 +82,18 @@ impl<'w> Shot<'w> {
 
     /// With normals and ids.
     pub(crate) fn frame(&self) -> Frame<'w> {
+        let surface = Surface {
+            depth: self.depth,
+            samples: 1,
+            depth_format: self.format,
+            normals: Some(Normals { texture: self.normals, space: NormalSpace::View, biased: false }),
+            ids: Some(self.ids),
+        };
         Frame {
-            camera: self.camera,
-            viewport: self.viewport,
-            surface: Surface {
-                depth: self.depth,
-                samples: 1,
-                depth_format: self.format,
-                normals: Some(Normals { texture: self.normals, space: NormalSpace::View, biased: false }),
-                ids: Some(self.ids),
-            },
             lights: &self.world.lights,
             occluders: &self.world.occluders,
-            bounds: &[],
             ambient: self.world.ambient,
+            ..Frame::new(self.camera, self.viewport, surface)
         }
     }
 

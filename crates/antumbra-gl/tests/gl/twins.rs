@@ -13,9 +13,9 @@ use glow::HasContext;
 const COVERAGE: &str = include_str!("../../src/shaders/coverage.glsl");
 const SURFACE: &str = include_str!("../../src/shaders/surface.glsl");
 const LIGHTS: &str = include_str!("../../src/shaders/lights.glsl");
-const SPHERE: &str = include_str!("../../src/shaders/sphere.glsl");
-const DISC: &str = include_str!("../../src/shaders/disc.glsl");
-const POLYGON: &str = include_str!("../../src/shaders/polygon.glsl");
+const SPHERE: &str = include_str!("../../src/shaders/analytic/sphere.glsl");
+const DISC: &str = include_str!("../../src/shaders/analytic/disc.glsl");
+const POLYGON: &str = include_str!("../../src/shaders/analytic/polygon.glsl");
 
 /// Calls side by side in a row of the target.
 const ROW: usize = 64;

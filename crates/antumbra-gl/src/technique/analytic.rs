@@ -1,0 +1,122 @@
+//! `analytic`: exact closed forms on any surface.
+//!
+//! Each pair of light and occluder is bounded by a convex polygon on the screen; in its pixels the closed form of
+//! `antumbra_math::blocking` gives the visibility, blended by minimum: for lights without extent that is the
+//! union of the occluders. Theory: docs/theory/analytic.md.
+
+use super::options::options;
+use super::{About, Batch, Method, Part, Pass, Refusal};
+use crate::pairs::{PairBuilder, Vertex};
+use crate::resources::UploadRing;
+use crate::scenery::Scenery;
+use crate::shader::{COVERAGE, ProgramSource, SURFACE, Stage};
+use crate::state::Blend;
+use crate::{Caps, Error};
+use glow::HasContext;
+
+/// What it is.
+pub(super) const ABOUT: About = About {
+    summary: "exact closed forms, antialiased by the area of the pixel, without bias",
+    casts_from: "planes, rectangles, discs, triangles, spheres, cones and unions of them",
+    falls_on: "anything",
+};
+
+options! {
+    /// Options of the technique `analytic`: none, it has nothing to tune.
+    pub struct Options {}
+}
+
+macro_rules! blocker_program {
+    ($name:literal, $texels:literal, $file:literal) => {
+        ProgramSource {
+            name: $name,
+            vertex: Stage {
+                defines: concat!("#define BLOCKER_TEXELS ", $texels, "\n"),
+                parts: &[include_str!("../shaders/analytic/blocker.vert.glsl")],
+            },
+            fragment: Stage {
+                defines: concat!("#define BLOCKER_TEXELS ", $texels, "\n"),
+                parts: &[
+                    COVERAGE,
+                    SURFACE,
+                    include_str!("../shaders/analytic/blocker_data.glsl"),
+                    include_str!(concat!("../shaders/analytic/", $file)),
+                    include_str!("../shaders/analytic/blocker.frag.glsl"),
+                ],
+            },
+            uniforms: &[],
+        }
+    };
+}
+
+/// A program for each kind of blocker, in the order of `pairs::pack_blocker`.
+pub(super) const PROGRAMS: &[ProgramSource] = &[
+    blocker_program!("sphere", "2", "sphere.glsl"),
+    blocker_program!("disc", "3", "disc.glsl"),
+    blocker_program!("polygon", "5", "polygon.glsl"),
+];
+
+pub(super) fn refusal(_: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
+    Refusal::of_areas(scenery.lights).or_else(|| {
+        let refusal = || Refusal { part: Part::Mesh(0), reason: "has no closed form for meshes".into() };
+        (!scenery.meshes.is_empty()).then(refusal)
+    })
+}
+
+/// The OpenGL objects, and the memory of the packing.
+pub(super) struct State {
+    uploads: UploadRing,
+    pairs: PairBuilder,
+}
+
+impl State {
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive.
+    pub(super) unsafe fn new(gl: &glow::Context, _: &Caps) -> Result<Self, Error> {
+        // SAFETY: the caller's.
+        let uploads = unsafe { UploadRing::new(gl, size_of::<Vertex>() as i32)? };
+        Ok(Self { uploads, pairs: PairBuilder::default() })
+    }
+}
+
+impl Method for State {
+    unsafe fn begin(&mut self, pass: &Pass<'_>) -> Result<(), Error> {
+        self.pairs.begin(pass.frame.occluders, pass.frame.bounds, pass.view);
+        Ok(())
+    }
+
+    unsafe fn draw_visibility(&mut self, pass: &Pass<'_>, batch: &mut Batch<'_>) -> Result<(), Error> {
+        self.pairs.pack(batch.lights, pass.view, batch.tiles);
+        if self.pairs.draws.is_empty() {
+            return Ok(());
+        }
+        let gl = pass.gl;
+        // SAFETY: the caller's.
+        unsafe {
+            let vertices = bytemuck::cast_slice(&self.pairs.vertices);
+            let upload = self.uploads.upload(gl, pass.caps, vertices, &mut self.pairs.texels)?;
+            gl.bind_vertex_array(Some(upload.vertex_array));
+            gl.active_texture(glow::TEXTURE3);
+            gl.bind_texture(glow::TEXTURE_2D, Some(upload.texture));
+            Blend::Min.apply(gl, *pass.caps);
+            for (group, target) in batch.masks.iter().enumerate() {
+                gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
+                for draw in self.pairs.draws.iter().filter(|draw| draw.group == group) {
+                    let program = pass.use_program(draw.kind, pass.mask_offset());
+                    gl.uniform_1_i32(program.uniforms.blockers.as_ref(), 3);
+                    gl.draw_arrays(glow::TRIANGLES, draw.first, draw.count);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn counts(&self) -> (usize, usize) {
+        self.pairs.counts
+    }
+
+    unsafe fn delete(&mut self, gl: &glow::Context) {
+        // SAFETY: the caller's.
+        unsafe { self.uploads.delete(gl) };
+    }
+}
