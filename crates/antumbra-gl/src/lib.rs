@@ -16,6 +16,7 @@ mod resources;
 mod scenery;
 mod shader;
 mod state;
+mod stencil;
 mod surface;
 pub mod technique;
 mod tiles;

@@ -22,6 +22,11 @@ pub(crate) enum TargetFormat {
 }
 
 impl Target {
+    /// Width, height and samples.
+    pub(crate) fn key(&self) -> (i32, i32, u32) {
+        (self.width, self.height, self.samples)
+    }
+
     /// Makes `slot` hold a target of this size, unless it does already.
     ///
     /// # Safety
