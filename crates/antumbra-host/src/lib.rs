@@ -1,15 +1,20 @@
 //! A plain OpenGL renderer of antumbra scenes: the host that the shadow library is a guest of.
 //!
-//! It knows nothing of shadows. It draws primitives by casting the eye's ray at their exact
-//! shapes, lights them without occlusion, and hands its depth, normals and object ids to
+//! It knows nothing of shadows. It draws the shapes with simple equations by casting the eye's ray
+//! at them and all others as triangles, lights them without occlusion, and hands its depth, normals and object ids to
 //! `antumbra`, as any host would.
 
+mod buffers;
+mod cast;
 mod context;
 mod describe;
+#[cfg(test)]
+mod drawing_tests;
 mod error;
 mod picture;
 mod program;
 mod stage;
+mod surface;
 mod targets;
 
 pub use context::{Api, ContextInfo, HeadlessContext};

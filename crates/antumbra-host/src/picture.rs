@@ -71,7 +71,7 @@ impl Stage {
     }
 
     /// The colour, linear, rows from top to bottom.
-    fn read_color(&self) -> Result<Vec<[f32; 3]>, HostError> {
+    pub(crate) fn read_color(&self) -> Result<Vec<[f32; 3]>, HostError> {
         let gl = &self.gl;
         let Some(targets) = &self.targets else { return Ok(Vec::new()) };
         let (width, height, ..) = targets.key;
@@ -148,7 +148,7 @@ impl Stage {
         Ok(visibility)
     }
 
-    fn read_surface(&self, setting: &Setting) -> Result<SurfaceCopy, HostError> {
+    pub(crate) fn read_surface(&self, setting: &Setting) -> Result<SurfaceCopy, HostError> {
         let gl = &self.gl;
         let Some(targets) = &self.targets else { return Err(HostError::Driver("nothing was drawn".into())) };
         let (width, height, ..) = targets.key;
@@ -202,11 +202,11 @@ fn everywhere(light: &antumbra::Light) -> antumbra::Light {
 const GRAZING: f32 = 4e-6;
 
 /// The stage's surface on the CPU, rows from bottom to top, view space.
-struct SurfaceCopy {
+pub(crate) struct SurfaceCopy {
     width: usize,
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    ids: Vec<u32>,
+    pub(crate) positions: Vec<Vec3>,
+    pub(crate) normals: Vec<Vec3>,
+    pub(crate) ids: Vec<u32>,
 }
 
 impl SurfaceCopy {

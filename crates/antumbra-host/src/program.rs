@@ -1,4 +1,4 @@
-//! The host's one shader program.
+//! The host's shader programs.
 
 use crate::HostError;
 use glow::HasContext;
@@ -6,9 +6,19 @@ use glow::HasContext;
 /// Lights in one pass: what the smallest uniform block that OpenGL allows can hold.
 pub(crate) const MAX_LIGHTS: usize = 256;
 
-/// Draws primitives.
+/// What a program draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Exact shapes, met by the eye's ray in a box round each.
+    Cast,
+    /// Triangles.
+    Triangles,
+}
+
+/// Draws primitives of one kind.
 pub(crate) struct Program {
     pub(crate) raw: glow::Program,
+    pub(crate) kind: Kind,
     pub(crate) uniforms: Uniforms,
 }
 
@@ -52,7 +62,7 @@ uniforms!(
 
 impl Program {
     /// Compiles and links it.
-    pub(crate) fn new(gl: &glow::Context, multisample: bool) -> Result<Self, HostError> {
+    pub(crate) fn new(gl: &glow::Context, kind: Kind, multisample: bool) -> Result<Self, HostError> {
         let header = match (gl.version().is_embedded, multisample) {
             (true, _) => "#version 300 es\nprecision highp float;\nprecision highp int;\n",
             (false, false) => "#version 330 core\n",
@@ -60,16 +70,25 @@ impl Program {
                 "#version 330 core\n#extension GL_ARB_sample_shading : require\n#define MULTISAMPLE\n"
             }
         };
-        let stages = [
-            (glow::VERTEX_SHADER, include_str!("shaders/primitive.vert.glsl")),
-            (glow::FRAGMENT_SHADER, include_str!("shaders/primitive.frag.glsl")),
-        ];
+        let (vertex, fragment) = match kind {
+            Kind::Cast => {
+                (include_str!("shaders/primitive.vert.glsl"), include_str!("shaders/primitive.frag.glsl"))
+            }
+            Kind::Triangles => {
+                (include_str!("shaders/triangles.vert.glsl"), include_str!("shaders/triangles.frag.glsl"))
+            }
+        };
+        let lit = include_str!("shaders/lit.glsl");
+        let stages = [(glow::VERTEX_SHADER, "", vertex), (glow::FRAGMENT_SHADER, lit, fragment)];
         // SAFETY: objects are made, used and deleted in this context.
         unsafe {
             let raw = gl.create_program().map_err(HostError::Driver)?;
-            for (kind, source) in stages {
-                let shader = gl.create_shader(kind).map_err(HostError::Driver)?;
-                gl.shader_source(shader, &format!("{header}#define MAX_LIGHTS {MAX_LIGHTS}\n{source}"));
+            for (stage, shared, source) in stages {
+                let shader = gl.create_shader(stage).map_err(HostError::Driver)?;
+                gl.shader_source(
+                    shader,
+                    &format!("{header}#define MAX_LIGHTS {MAX_LIGHTS}\n{shared}{source}"),
+                );
                 gl.compile_shader(shader);
                 let failed = !gl.get_shader_compile_status(shader);
                 let log = gl.get_shader_info_log(shader);
@@ -89,7 +108,7 @@ impl Program {
             if let Some(block) = gl.get_uniform_block_index(raw, "Lights") {
                 gl.uniform_block_binding(raw, block, 0);
             }
-            Ok(Self { raw, uniforms: Uniforms::find(gl, raw) })
+            Ok(Self { raw, kind, uniforms: Uniforms::find(gl, raw) })
         }
     }
 }

@@ -1,15 +1,17 @@
 //! Draws a scene without shadows.
 
 use crate::HostError;
+use crate::buffers::Buffers as TriangleBuffers;
+use crate::cast::Cast;
 use crate::describe::{Described, describe};
-use crate::program::{MAX_LIGHTS, Program};
+use crate::program::{Kind, MAX_LIGHTS, Program};
 use crate::targets::{ColorFormat, Targets};
-use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3, Vec3Swizzles, Vec4};
+use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3};
 use antumbra::math::Plane;
 use antumbra::{
     Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface, Technique,
 };
-use antumbra_scene::{Moment, Primitive, Scene, Shape};
+use antumbra_scene::{Moment, Primitive, Scene};
 use glow::HasContext;
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -18,8 +20,9 @@ use std::sync::Arc;
 pub struct Stage {
     pub(crate) gl: Arc<glow::Context>,
     pub(crate) shadows: antumbra::Renderer,
-    program: Program,
-    multisample_program: Option<Program>,
+    programs: [Program; 2],
+    multisample_programs: Option<[Program; 2]>,
+    triangles: TriangleBuffers,
     vertex_array: glow::VertexArray,
     lights: glow::Buffer,
     pub(crate) targets: Option<Targets>,
@@ -123,8 +126,13 @@ impl Stage {
     /// [`HostError::Driver`], [`HostError::Shadows`].
     pub fn new(gl: &Arc<glow::Context>) -> Result<Self, HostError> {
         let shadows = antumbra::Renderer::new(gl.clone())?;
-        let multisample_program =
-            if shadows.caps().max_samples > 1 { Some(Program::new(gl, true)?) } else { None };
+        let programs = |multisample| {
+            Ok::<_, HostError>([
+                Program::new(gl, Kind::Cast, multisample)?,
+                Program::new(gl, Kind::Triangles, multisample)?,
+            ])
+        };
+        let multisample_programs = if shadows.caps().max_samples > 1 { Some(programs(true)?) } else { None };
         // SAFETY: fresh objects in the current context; the buffer is as large as the block.
         unsafe {
             let lights = gl.create_buffer().map_err(HostError::Driver)?;
@@ -132,8 +140,9 @@ impl Stage {
             let size = MAX_LIGHTS * size_of::<ShaderLight>();
             gl.buffer_data_size(glow::UNIFORM_BUFFER, size as i32, glow::DYNAMIC_DRAW);
             Ok(Self {
-                program: Program::new(gl, false)?,
-                multisample_program,
+                programs: programs(false)?,
+                multisample_programs,
+                triangles: TriangleBuffers::default(),
                 vertex_array: gl.create_vertex_array().map_err(HostError::Driver)?,
                 lights,
                 targets: None,
@@ -171,13 +180,13 @@ impl Stage {
         buffers: Buffers,
     ) -> Result<(), HostError> {
         self.ensure_targets(width, height, samples, format)?;
+        self.triangles.prepare(&self.gl, setting.primitives.iter().map(|p| &p.shape))?;
         let gl = &self.gl;
         let Some(targets) = &self.targets else { return Ok(()) };
-        let program = match &self.multisample_program {
-            Some(program) if samples > 1 => program,
-            _ => &self.program,
+        let programs = match &self.multisample_programs {
+            Some(programs) if samples > 1 => programs,
+            _ => &self.programs,
         };
-        let u = &program.uniforms;
         let view = setting.camera.view;
         let projection = setting.camera.projection;
         let [px, py] = [projection.x_axis.x, projection.y_axis.y];
@@ -195,7 +204,6 @@ impl Stage {
             gl.enable(glow::DEPTH_TEST);
             gl.depth_mask(true);
             gl.depth_func(glow::GREATER);
-            gl.enable(glow::CULL_FACE);
             gl.cull_face(glow::FRONT); // the far side of each box: seen from inside it too
             gl.clear_buffer_f32_slice(glow::COLOR, 0, &setting.background.extend(1.0).to_array());
             if buffers == Buffers::All {
@@ -203,15 +211,6 @@ impl Stage {
                 gl.clear_buffer_u32_slice(glow::COLOR, 2, &[0; 4]);
             }
             gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.0]);
-            gl.use_program(Some(program.raw));
-            gl.bind_vertex_array(Some(self.vertex_array));
-            gl.uniform_matrix_4_f32_slice(
-                u.projection.as_ref(),
-                false,
-                &projection.as_mat4().to_cols_array(),
-            );
-            gl.uniform_4_f32_slice(u.window.as_ref(), &window);
-            gl.uniform_1_f32(u.near.as_ref(), setting.near as f32);
             gl.bind_buffer_base(glow::UNIFORM_BUFFER, 0, Some(self.lights));
             // More lights than a uniform block holds are added in further passes.
             let lights = &setting.described.lights;
@@ -223,17 +222,28 @@ impl Stage {
                     some.iter().map(|light| ShaderLight::new(light, &view)).collect();
                 gl.bind_buffer(glow::UNIFORM_BUFFER, Some(self.lights));
                 gl.buffer_sub_data_u8_slice(glow::UNIFORM_BUFFER, 0, bytemuck::cast_slice(&data));
-                gl.uniform_1_i32(u.light_count.as_ref(), some.len() as i32);
                 let ambient = if pass == 0 { setting.ambient } else { Vec3::ZERO };
-                gl.uniform_3_f32_slice(u.ambient.as_ref(), &ambient.to_array());
                 if pass == 1 {
                     gl.draw_buffers(&ATTACHMENTS[..1]);
                     gl.enable(glow::BLEND);
                     gl.blend_func(glow::ONE, glow::ONE);
                     gl.depth_func(glow::EQUAL);
                 }
-                for (i, primitive) in setting.primitives.iter().enumerate() {
-                    self.draw_primitive(program, primitive, i as u32 + 1, &view);
+                for program in programs {
+                    let u = &program.uniforms;
+                    gl.use_program(Some(program.raw));
+                    gl.uniform_matrix_4_f32_slice(
+                        u.projection.as_ref(),
+                        false,
+                        &projection.as_mat4().to_cols_array(),
+                    );
+                    gl.uniform_4_f32_slice(u.window.as_ref(), &window);
+                    gl.uniform_1_f32(u.near.as_ref(), setting.near as f32);
+                    gl.uniform_1_i32(u.light_count.as_ref(), some.len() as i32);
+                    gl.uniform_3_f32_slice(u.ambient.as_ref(), &ambient.to_array());
+                    for (i, primitive) in setting.primitives.iter().enumerate() {
+                        self.draw_primitive(program, primitive, i as u32 + 1, &view);
+                    }
                 }
             }
             if passes > 1 {
@@ -249,28 +259,54 @@ impl Stage {
     /// # Safety
     /// `program` is in use.
     unsafe fn draw_primitive(&self, program: &Program, primitive: &Primitive, id: u32, view: &DMat4) {
-        let Some(cast) = Cast::new(&primitive.shape) else { return };
         let gl = &self.gl;
         let u = &program.uniforms;
         let pose = DMat4::from_rotation_translation(primitive.pose.rotation, primitive.pose.translation);
-        let to_view = *view * pose;
-        let eye = to_view.inverse().transform_point3(DVec3::ZERO).as_vec3();
-        let from_view = Mat3::from_mat4(to_view.as_mat4()).transpose();
+        let mut to_view = *view * pose;
         let albedo = primitive.color.as_vec3() / PI;
         let id = if primitive.receives_shadow { id } else { id | NO_SHADOW };
-        // SAFETY: the caller's.
+        // SAFETY: the caller's; buffers hold as many corners as they say.
         unsafe {
-            gl.uniform_matrix_4_f32_slice(u.to_view.as_ref(), false, &to_view.as_mat4().to_cols_array());
-            gl.uniform_matrix_3_f32_slice(u.from_view.as_ref(), false, &from_view.to_cols_array());
-            gl.uniform_3_f32_slice(u.eye.as_ref(), &eye.to_array());
-            gl.uniform_3_f32_slice(u.center.as_ref(), &cast.center.to_array());
-            gl.uniform_3_f32_slice(u.half_size.as_ref(), &cast.half_size.to_array());
-            gl.uniform_1_i32(u.shape.as_ref(), cast.shape);
-            gl.uniform_4_f32_slice(u.size.as_ref(), &cast.size.to_array());
-            gl.uniform_3_f32_slice(u.triangle.as_ref(), bytemuck::cast_slice(&cast.triangle));
-            gl.uniform_3_f32_slice(u.albedo.as_ref(), &albedo.to_array());
-            gl.uniform_1_u32(u.id.as_ref(), id);
-            gl.draw_arrays(glow::TRIANGLES, 0, 36);
+            let look = || {
+                gl.uniform_3_f32_slice(u.albedo.as_ref(), &albedo.to_array());
+                gl.uniform_1_u32(u.id.as_ref(), id);
+            };
+            match program.kind {
+                Kind::Cast => {
+                    let Some(cast) = Cast::new(&primitive.shape) else { return };
+                    let eye = to_view.inverse().transform_point3(DVec3::ZERO).as_vec3();
+                    let from_view = Mat3::from_mat4(to_view.as_mat4()).transpose();
+                    look();
+                    gl.uniform_matrix_4_f32_slice(
+                        u.to_view.as_ref(),
+                        false,
+                        &to_view.as_mat4().to_cols_array(),
+                    );
+                    gl.uniform_matrix_3_f32_slice(u.from_view.as_ref(), false, &from_view.to_cols_array());
+                    gl.uniform_3_f32_slice(u.eye.as_ref(), &eye.to_array());
+                    gl.uniform_3_f32_slice(u.center.as_ref(), &cast.center.to_array());
+                    gl.uniform_3_f32_slice(u.half_size.as_ref(), &cast.half_size.to_array());
+                    gl.uniform_1_i32(u.shape.as_ref(), cast.shape);
+                    gl.uniform_4_f32_slice(u.size.as_ref(), &cast.size.to_array());
+                    gl.uniform_3_f32_slice(u.triangle.as_ref(), bytemuck::cast_slice(&cast.triangle));
+                    gl.enable(glow::CULL_FACE);
+                    gl.bind_vertex_array(Some(self.vertex_array));
+                    gl.draw_arrays(glow::TRIANGLES, 0, 36);
+                }
+                Kind::Triangles => {
+                    let Some(buffer) = self.triangles.get(&primitive.shape) else { return };
+                    to_view *= DMat4::from_translation(buffer.origin);
+                    look();
+                    gl.uniform_matrix_4_f32_slice(
+                        u.to_view.as_ref(),
+                        false,
+                        &to_view.as_mat4().to_cols_array(),
+                    );
+                    gl.disable(glow::CULL_FACE); // both sides are seen
+                    gl.bind_vertex_array(Some(buffer.vertex_array));
+                    gl.draw_arrays(glow::TRIANGLES, 0, buffer.count);
+                }
+            }
         }
     }
 
@@ -350,60 +386,10 @@ impl Drop for Stage {
             }
             self.gl.delete_vertex_array(self.vertex_array);
             self.gl.delete_buffer(self.lights);
-            self.gl.delete_program(self.program.raw);
-            if let Some(program) = &self.multisample_program {
+            self.triangles.delete(&self.gl);
+            for program in self.programs.iter().chain(self.multisample_programs.iter().flatten()) {
                 self.gl.delete_program(program.raw);
             }
         }
-    }
-}
-
-/// A shape in the shader's numbers.
-struct Cast {
-    shape: i32,
-    size: Vec4,
-    triangle: [Vec3; 3],
-    center: Vec3,
-    half_size: Vec3,
-}
-
-impl Cast {
-    /// `None` for shapes this host does not draw.
-    fn new(shape: &Shape) -> Option<Self> {
-        let cast = |shape, size: Vec4, half_size: Vec3| Self {
-            shape,
-            size,
-            triangle: [Vec3::ZERO; 3],
-            center: Vec3::ZERO,
-            half_size,
-        };
-        // Boxes of flat shapes are a little thick, so that their far side exists.
-        Some(match *shape {
-            Shape::Plane => cast(0, Vec4::ZERO, Vec3::ZERO),
-            Shape::Rectangle { width, depth } => {
-                let half = Vec3::new(width as f32, 0.0, depth as f32) * 0.5;
-                cast(1, half.xz().extend(0.0).extend(0.0), half + half.max_element() * 1e-2)
-            }
-            Shape::Disc { radius } => {
-                let r = radius as f32;
-                cast(2, Vec4::splat(r), Vec3::new(r, r * 1e-2, r) * 1.01)
-            }
-            Shape::Triangle { vertices } => {
-                let triangle = vertices.map(|v| v.as_vec3());
-                let low = triangle.into_iter().reduce(Vec3::min)?;
-                let high = triangle.into_iter().reduce(Vec3::max)?;
-                let half_size = (high - low) * 0.5;
-                let half_size = half_size + half_size.max_element() * 1e-2;
-                Self { triangle, center: (low + high) * 0.5, ..cast(3, Vec4::ZERO, half_size) }
-            }
-            Shape::Sphere { radius } => {
-                cast(4, Vec4::splat(radius as f32), Vec3::splat(radius as f32 * 1.01))
-            }
-            Shape::Cone { radius, height } => {
-                let (r, h) = (radius as f32, height as f32);
-                cast(5, Vec4::new(r, h, 0.0, 0.0), Vec3::new(r, h * 0.5, r) * 1.01)
-            }
-            _ => return None,
-        })
     }
 }

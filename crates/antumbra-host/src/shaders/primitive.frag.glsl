@@ -9,23 +9,10 @@
 uniform mat4 u_to_view;
 uniform vec3 u_eye;          // in the primitive's space
 uniform mat3 u_from_view;    // directions, to the primitive's space
-uniform vec4 u_window;       // xy: scale, zw: offset from window position to the ray's x and y at z = -1
 uniform float u_near;        // window depth = near / distance
 uniform int u_shape;
 uniform vec4 u_size;
 uniform vec3 u_triangle[3];
-uniform vec3 u_albedo;       // over pi
-uniform vec3 u_ambient;      // irradiance
-uniform highp uint u_id;
-uniform int u_light_count;
-
-layout(std140) uniform Lights {
-    vec4 lights[MAX_LIGHTS * 4];
-};
-
-layout(location = 0) out vec4 o_color;
-layout(location = 1) out vec4 o_normal;
-layout(location = 2) out highp uint o_id;
 
 // Distance along `d`, and the normal; false for a miss.
 bool cast_flat(vec3 o, vec3 d, out float t, out vec3 normal) {
@@ -100,23 +87,8 @@ bool cast_triangle(vec3 o, vec3 d, out float t, out vec3 normal) {
     return t > 0.0 && inside_triangle(o + d * t);
 }
 
-vec3 irradiance(vec4 place, vec3 color, vec4 cone, vec4 attenuation, vec3 position, vec3 normal) {
-    vec3 to_light = place.xyz - position * place.w;
-    float square = max(dot(to_light, to_light), 1e-30);
-    float distance = sqrt(square);
-    vec3 direction = to_light / distance;
-    float angular = clamp(dot(-direction, cone.xyz) * cone.w + attenuation.w, 0.0, 1.0);
-    float falloff = place.w > 0.5 ? 1.0 / square : 1.0;
-    return color * (max(dot(normal, direction), 0.0) * angular * angular * falloff);
-}
-
 void main() {
-#ifdef MULTISAMPLE
-    vec2 window = floor(gl_FragCoord.xy) + gl_SamplePosition;
-#else
-    vec2 window = gl_FragCoord.xy;
-#endif
-    vec3 sight = vec3(window * u_window.xy + u_window.zw, -1.0);
+    vec3 sight = line_of_sight();
     vec3 d = normalize(u_from_view * sight);
     float t;
     vec3 normal;
@@ -146,11 +118,5 @@ void main() {
         discard;  // nearer than the near plane
     }
     gl_FragDepth = max(depth, 1e-37);  // the far end is still something, not the background
-    vec3 e = u_ambient;
-    for (int i = 0; i < u_light_count; i++) {
-        e += irradiance(lights[i * 4], lights[i * 4 + 1].rgb, lights[i * 4 + 2], lights[i * 4 + 3], position, normal);
-    }
-    o_color = vec4(u_albedo * e, 1.0);
-    o_normal = vec4(normal, -position.z);
-    o_id = u_id;
+    write_surface(position, normal);
 }
