@@ -13,7 +13,7 @@ struct Need {
     found: fn() -> bool,
 }
 
-const NEEDS: [Need; 4] = [
+const NEEDS: [Need; 5] = [
     Need {
         what: "libEGL.so.1: OpenGL without a window",
         package: "libegl1",
@@ -31,6 +31,11 @@ const NEEDS: [Need; 4] = [
         what: "glslangValidator: checks the shaders against the GLSL standard",
         package: "glslang-tools",
         found: || in_path("glslangValidator"),
+    },
+    Need {
+        what: "models in glTF 2.0 and OBJ: real files for the mesh readers",
+        package: "assimp-testmodels",
+        found: models,
     },
 ];
 
@@ -106,6 +111,8 @@ fn advice(packages: &[&str]) -> String {
          Debian, Ubuntu:  sudo apt-get update && sudo apt-get install {}\n  \
          Fedora:          sudo dnf install mesa-libEGL mesa-dri-drivers libglvnd-gles glslang\n  \
          Arch:            sudo pacman -S mesa libglvnd glslang\n\
+         The models are the folder test/models of the Asset Importer Library's sources; where no package has them,\n\
+         set ANTUMBRA_MODELS to it.\n\
          The tests draw without a window through EGL, which macOS and Windows do not have; there, run them in a\n\
          Linux container.",
         packages.join(" ")
@@ -139,6 +146,12 @@ fn gallium() -> bool {
         .filter_map(|directory| directory.read_dir().ok())
         .flat_map(|entries| entries.flatten())
         .any(|entry| entry.file_name().to_string_lossy().starts_with("libgallium-"))
+}
+
+/// Whether the models of the Asset Importer Library are there: installed, or where `ANTUMBRA_MODELS` says.
+fn models() -> bool {
+    let folder = std::env::var_os("ANTUMBRA_MODELS").map_or("/usr/share/assimp/models".into(), PathBuf::from);
+    folder.join("glTF2").is_dir() && folder.join("OBJ").is_dir()
 }
 
 fn in_path(program: &str) -> bool {

@@ -66,15 +66,42 @@ pub(crate) fn read(bytes: &[u8], folder: Option<&Path>, mesh: &mut Builder) -> R
     Ok(())
 }
 
-/// The document, valid: every index in it is in range, and no extension is required that is unknown.
-fn validated(root: Root) -> Result<gltf::Document, MeshError> {
+/// Extensions that a file may require and that change no triangle.
+const HARMLESS: [&str; 8] = [
+    "KHR_materials_",
+    "KHR_texture_",
+    "EXT_texture_",
+    "MSFT_texture_",
+    "KHR_technique_webgl",
+    "KHR_techniques_webgl",
+    "KHR_lights_punctual",
+    "KHR_xmp",
+];
+
+/// The document, valid: every index in it is in range, and no extension is required that may change what
+/// its triangles are.
+fn validated(mut root: Root) -> Result<gltf::Document, MeshError> {
     // The validator takes this one index for granted (gltf-json 1.4.1, `primitive_validate_hook`).
     let mut primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let positions = |p: &Primitive| p.attributes.get(&Checked::Valid(Semantic::Positions)).map(|i| i.value());
     if primitives.any(|p| positions(p).is_some_and(|i| i >= root.accessors.len())) {
         return Err(MeshError::malformed("a primitive has positions in an accessor that is not there"));
     }
-    gltf::Document::from_json(root).map_err(MeshError::malformed)
+    root.extensions_required.retain(|name| !HARMLESS.iter().any(|start| name.starts_with(start)));
+    if let Some(name) = root.extensions_required.first() {
+        return Err(MeshError::new(
+            format!("requires the extension {}, which is not read", quoted(name)),
+            "export the mesh without it, for example uncompressed",
+        ));
+    }
+    gltf::Document::from_json(root).map_err(|error| match &error {
+        // One line for each thing wrong may be thousands.
+        gltf::Error::Validation(all) if all.len() > 1 => {
+            let first = &all[0];
+            MeshError::malformed(format!("{}: {}, and {} more", first.0, first.1, all.len() - 1))
+        }
+        _ => MeshError::malformed(error),
+    })
 }
 
 /// From the node to its parent.
@@ -125,7 +152,10 @@ fn triangles(
         }
         None => (0..count as u32).collect(),
     };
-    let mut add = |corners: [u32; 3]| -> Result<(), MeshError> {
+    let mirrored = to_world.determinant() < 0.0;
+    let mut add = |[a, b, c]: [u32; 3]| -> Result<(), MeshError> {
+        // What a transform mirrors keeps its front (glTF 2.0, section 3.7.4).
+        let corners = if mirrored { [a, c, b] } else { [a, b, c] };
         if let Some(bad) = corners.iter().find(|i| **i as usize >= count) {
             return Err(MeshError::malformed(format!("a triangle has vertex {bad}, but there are {count}")));
         }
@@ -133,7 +163,10 @@ fn triangles(
         mesh.triangle(corners.map(|i| i + first as u32))
     };
     match mode {
-        Mode::TriangleStrip => indices.windows(3).try_for_each(|w| add([w[0], w[1], w[2]])),
+        // Every other triangle of a strip runs the other way.
+        Mode::TriangleStrip => indices.windows(3).enumerate().try_for_each(|(i, w)| {
+            if i % 2 == 0 { add([w[0], w[1], w[2]]) } else { add([w[0], w[2], w[1]]) }
+        }),
         Mode::TriangleFan => match indices.split_first() {
             Some((center, rim)) => rim.windows(2).try_for_each(|w| add([*center, w[0], w[1]])),
             None => Ok(()),

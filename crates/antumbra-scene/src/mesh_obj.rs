@@ -1,5 +1,5 @@
 //! Wavefront OBJ, read by `tobj`: vertices and faces; faces with more than three corners are cut into
-//! a fan, right for convex ones. Lines, points, normals, texture coordinates, groups and materials
+//! a fan, or by `earcut` where a fan would not do. Lines, points, normals, texture coordinates, groups and materials
 //! have no part in shadows and are passed over.
 
 use glam::DVec3;
@@ -8,29 +8,89 @@ use crate::mesh::{Builder, MeshError};
 
 /// Adds the triangles of an OBJ file to `mesh`.
 pub(crate) fn read(bytes: &[u8], mesh: &mut Builder) -> Result<(), MeshError> {
-    let text = geometry(&String::from_utf8_lossy(bytes));
-    let options = tobj::LoadOptions {
-        triangulate: true,
-        ignore_points: true,
-        ignore_lines: true,
-        ..Default::default()
-    };
+    let text = geometry(&decoded(bytes));
+    let options = tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..Default::default() };
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| {
         tobj::MTLLoadResult::Err(tobj::LoadError::GenericFailure)
     })
     .map_err(MeshError::malformed)?;
     for model in &models {
         let first = mesh.vertices();
-        mesh.expect(model.mesh.positions.len() / 3, model.mesh.indices.len() / 3)?;
-        for p in model.mesh.positions.chunks_exact(3) {
-            mesh.vertex(DVec3::new(p[0], p[1], p[2]))?;
+        let positions: Vec<DVec3> =
+            model.mesh.positions.chunks_exact(3).map(|p| DVec3::new(p[0], p[1], p[2])).collect();
+        let (mut rest, arities) = (&model.mesh.indices[..], &model.mesh.face_arities);
+        let faces = if arities.is_empty() { rest.len() / 3 } else { arities.len() };
+        // A face of n corners is n - 2 triangles.
+        mesh.expect(positions.len(), rest.len().saturating_sub(2 * faces))?;
+        for p in &positions {
+            mesh.vertex(*p)?;
         }
-        for t in model.mesh.indices.chunks_exact(3) {
-            // Both are far below 2^32: the limit on vertices is 2^24.
-            mesh.triangle([t[0], t[1], t[2]].map(|i| i.saturating_add(first as u32)))?;
+        for face in 0..faces {
+            let corners;
+            (corners, rest) = rest.split_at(arities.get(face).map_or(3, |n| *n as usize).min(rest.len()));
+            for t in cut(corners, &positions)? {
+                // Both are far below 2^32: the limit on vertices is 2^24.
+                mesh.triangle(t.map(|i| i.saturating_add(first as u32)))?;
+            }
         }
     }
     Ok(())
+}
+
+/// The text: UTF-8, or UTF-16 where a byte order mark says so.
+fn decoded(bytes: &[u8]) -> String {
+    let wide = |unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|b| unit([b[0], b[1]])).collect();
+        String::from_utf16_lossy(&units)
+    };
+    match bytes {
+        [0xFE, 0xFF, ..] => wide(u16::from_be_bytes),
+        [0xFF, 0xFE, ..] => wide(u16::from_le_bytes),
+        [0xEF, 0xBB, 0xBF, rest @ ..] => String::from_utf8_lossy(rest).into_owned(),
+        _ => String::from_utf8_lossy(bytes).into_owned(),
+    }
+}
+
+/// Most corners of a face that is not convex: cutting may take the square of their number.
+const MAX_CORNERS: usize = 1 << 14;
+
+/// The triangles of a polygon. A fan keeps every corner, so that a neighbour's corner in the middle of
+/// a straight side opens no slit; it is right where none of its triangles is turned against the polygon,
+/// as in every convex one. Others are cut by the ears in the plane that fits best.
+fn cut(corners: &[u32], positions: &[DVec3]) -> Result<Vec<[u32; 3]>, MeshError> {
+    let [center, rim @ ..] = corners else {
+        return Err(MeshError::malformed("invalid polygon without corners"));
+    };
+    let fan: Vec<[u32; 3]> = rim.windows(2).map(|w| [*center, w[0], w[1]]).collect();
+    let at = |i: u32| positions.get(i as usize).copied().unwrap_or_default();
+    let area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(at);
+        (b - a).cross(c - a)
+    };
+    // The sum over the fan is the polygon's area whatever its form.
+    let normal: DVec3 = fan.iter().map(area).sum();
+    let turned = fan.iter().any(|t| area(t).dot(normal) < 0.0);
+    let Some(normal) = normal.try_normalize().filter(|_| turned) else { return Ok(fan) };
+    if corners.len() > MAX_CORNERS {
+        return Err(MeshError::too_large(format!(
+            "a face that is not convex has {} corners, more than {MAX_CORNERS}",
+            corners.len()
+        )));
+    }
+    let (u, v) = normal.any_orthonormal_pair();
+    let flat = corners.iter().map(|&i| [u.dot(at(i)), v.dot(at(i))]);
+    let mut ears: Vec<u32> = Vec::new();
+    earcut::Earcut::new().earcut(flat, &[], &mut ears);
+    let ears: Vec<[u32; 3]> = ears
+        .as_chunks::<3>()
+        .0
+        .iter()
+        .map(|t| {
+            let [a, b, c] = t.map(|k| corners[k as usize]);
+            if area(&[a, b, c]).dot(normal) < 0.0 { [a, c, b] } else { [a, b, c] }
+        })
+        .collect();
+    Ok(if ears.is_empty() { fan } else { ears })
 }
 
 /// The lines with vertices and faces, with continued lines joined. Beside saving work, this keeps the
@@ -68,6 +128,50 @@ mod tests {
         .expect("a valid file");
         assert_eq!(m.triangles.len(), 3, "a quad and a triangle: {m:?}");
         assert_eq!(m.positions[m.triangles[2][0] as usize], DVec3::new(0.1, 0.2, 1.0), "in float64");
+    }
+
+    #[test]
+    fn polygons_that_are_not_convex_are_cut_inside() {
+        // An arrowhead whose first corner does not see all others, and a frame with a slit.
+        for (text, corners, area) in [
+            ("v 2 0 0\nv 0 2 0\nv 0.5 0 0\nv 0 -2 0\nf 1 2 3 4\n", 4, 3.0),
+            ("v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 2 3 4 1\n", 4, 1.0),
+            (
+                "v 0 0 7\nv 4 0 7\nv 4 4 7\nv 0 4 7\nv 0 2 7\nv 1 2 7\nv 1 3 7\nv 3 3 7\nv 3 1 7\nv 1 1 7\n\
+                 v 1 2 7\nv 0 2 7\nf 1 2 3 4 5 6 7 8 9 10 11 12\n",
+                12,
+                12.0,
+            ),
+        ] {
+            let m = mesh(text).expect("a valid file");
+            let areas: Vec<f64> = m
+                .triangles
+                .iter()
+                .map(|t| {
+                    let [a, b, c] = t.map(|i| m.positions[i as usize]);
+                    0.5 * (b - a).cross(c - a).z
+                })
+                .collect();
+            assert!(m.triangles.len() <= corners - 2, "{m:?}");
+            assert!((areas.iter().sum::<f64>().abs() - area).abs() < 1e-12, "{areas:?} are {area}");
+            let (least, most) = areas.iter().fold((0.0_f64, 0.0_f64), |(l, h), a| (l.min(*a), h.max(*a)));
+            assert!(least * most == 0.0, "all on one side: {areas:?}");
+        }
+    }
+
+    #[test]
+    fn text_may_be_utf_16_where_it_says_so() {
+        let text = "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n";
+        let mut big = vec![0xFE, 0xFF];
+        big.extend(text.encode_utf16().flat_map(u16::to_be_bytes));
+        let mut little = vec![0xFF, 0xFE];
+        little.extend(text.encode_utf16().flat_map(u16::to_le_bytes));
+        let marked = [&[0xEF, 0xBB, 0xBF], text.as_bytes()].concat();
+        for bytes in [&big[..], &little, &marked, &little[..little.len() - 1]] {
+            let mut builder = Builder::new(100, 100);
+            assert!(read(bytes, &mut builder).is_ok(), "{bytes:?}");
+            assert_eq!(builder.vertices(), 3, "{bytes:?}");
+        }
     }
 
     #[test]

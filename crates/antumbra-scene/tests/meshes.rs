@@ -191,11 +191,43 @@ fn sparse_accessors_strips_and_fans() {
     if beyond != text {
         load(folder.path(), &[("s.gltf", beyond.as_bytes())]).expect_err("element 9 of 3");
     }
-    // 0 1 2 2 1 0 as a strip: 012, 122, 221, 210, of which two have an area. As a fan: 012, 022, 021, 010.
-    for (mode, triangles) in [(5, [[0, 1, 2], [2, 1, 0]]), (6, [[0, 1, 2], [0, 2, 1]])] {
+    // 0 1 2 2 1 0 as a strip: 012, 212, 221, 201 (every other one turned), of which two have an area. As a fan: 012, 022, 021, 010.
+    for (mode, triangles) in [(5, [[0, 1, 2], [2, 0, 1]]), (6, [[0, 1, 2], [0, 2, 1]])] {
         let text = embedded().replace("\"indices\":1", &format!("\"indices\":1,\"mode\":{mode}"));
         let mesh = load(folder.path(), &[("f.gltf", text.as_bytes())]).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(mesh.triangles[..2], triangles, "mode {mode}");
+    }
+}
+
+#[test]
+fn a_mirrored_node_keeps_its_front() {
+    let folder = folder();
+    let normal = |text: &str| {
+        let mesh = load(folder.path(), &[("m.gltf", text.as_bytes())]).unwrap_or_else(|e| panic!("{e}"));
+        let [a, b, c] = mesh.triangles[0].map(|i| mesh.positions[i as usize]);
+        (b - a).cross(c - a)
+    };
+    // The triangle lies in z = 0 and looks along +Z.
+    assert_eq!(normal(&embedded()), DVec3::Z * 4.0, "as it is");
+    assert_eq!(normal(&embedded().replace("[2,2,2]", "[2,2,-2]")), DVec3::NEG_Z * 4.0, "seen from behind");
+    assert_eq!(normal(&embedded().replace("[2,2,2]", "[-2,2,2]")), DVec3::Z * 4.0, "seen from the front");
+}
+
+#[test]
+fn required_extensions_are_refused_unless_they_change_no_triangle() {
+    let folder = folder();
+    let load = |name: &str| {
+        let head = format!(r#"{{"extensionsUsed":["{name}"],"extensionsRequired":["{name}"],"asset""#);
+        let text = embedded().replacen("{\"asset\"", &head, 1);
+        load(folder.path(), &[("e.gltf", text.as_bytes())])
+    };
+    for name in ["KHR_materials_unlit", "KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual"]
+    {
+        load(name).unwrap_or_else(|e| panic!("{e}"));
+    }
+    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"] {
+        let error = load(name).expect_err(name).to_string();
+        assert!(error.contains(&format!("requires the extension \"{name}\"")), "{error}");
     }
 }
 
