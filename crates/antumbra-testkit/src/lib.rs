@@ -6,4 +6,5 @@
 #![forbid(unsafe_code)]
 
 pub mod metrics;
+pub mod random_mesh_scene;
 pub mod random_scene;

@@ -63,7 +63,7 @@ pub fn random_scene(seed: u64, options: &RandomScene) -> Scene {
 }
 
 /// A function that tilts `axis` by up to `most` radians to any side.
-fn random_tilt(axis: DVec3, most: f64) -> impl Fn(&mut Random) -> DVec3 {
+pub(crate) fn random_tilt(axis: DVec3, most: f64) -> impl Fn(&mut Random) -> DVec3 {
     move |random| {
         let (tilt, around) = (random.range(0.0, most), random.range(0.0, TAU));
         let side = DQuat::from_axis_angle(axis, around) * axis.any_orthonormal_vector();
@@ -71,39 +71,39 @@ fn random_tilt(axis: DVec3, most: f64) -> impl Fn(&mut Random) -> DVec3 {
     }
 }
 
-struct Random(Rng);
+pub(crate) struct Random(pub(crate) Rng);
 
 impl Random {
     /// Uniform in [low, high).
-    fn range(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn range(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.0.f64()
     }
 
     /// True so often.
-    fn chance(&mut self, often: f64) -> bool {
+    pub(crate) fn chance(&mut self, often: f64) -> bool {
         self.0.f64() < often
     }
 
     /// Uniform on the sphere.
-    fn direction(&mut self) -> DVec3 {
+    pub(crate) fn direction(&mut self) -> DVec3 {
         let (y, turn) = (self.range(-1.0, 1.0), self.range(0.0, TAU));
         let r = (1.0 - y * y).max(0.0).sqrt();
         DVec3::new(r * turn.cos(), y, r * turn.sin())
     }
 
     /// Uniform over all rotations (Shoemake, Uniform Random Rotations, Graphics Gems III, 1992).
-    fn rotation(&mut self) -> DQuat {
+    pub(crate) fn rotation(&mut self) -> DQuat {
         let (u, a, b) = (self.0.f64(), self.range(0.0, TAU), self.range(0.0, TAU));
         let (s, c) = ((1.0 - u).sqrt(), u.sqrt());
         DQuat::from_xyzw(s * a.sin(), s * a.cos(), c * b.sin(), c * b.cos()).normalize()
     }
 
     /// Uniform in a ball.
-    fn in_ball(&mut self, radius: f64) -> DVec3 {
+    pub(crate) fn in_ball(&mut self, radius: f64) -> DVec3 {
         self.direction() * (radius * self.0.f64().cbrt())
     }
 
-    fn color(&mut self) -> DVec3 {
+    pub(crate) fn color(&mut self) -> DVec3 {
         DVec3::new(self.range(0.2, 0.9), self.range(0.2, 0.9), self.range(0.2, 0.9))
     }
 
@@ -217,7 +217,7 @@ impl Random {
     }
 }
 
-fn object(name: String, shape: Shape, pose: Pose, color: DVec3) -> Object {
+pub(crate) fn object(name: String, shape: Shape, pose: Pose, color: DVec3) -> Object {
     Object {
         name,
         parts: vec![Part { shape, pose: Pose::IDENTITY }],
@@ -230,7 +230,7 @@ fn object(name: String, shape: Shape, pose: Pose, color: DVec3) -> Object {
 }
 
 /// The vertices, or others where they are so nearly on a line that the triangle has no plane.
-fn apart(vertices: [DVec3; 3], size: f64) -> [DVec3; 3] {
+pub(crate) fn apart(vertices: [DVec3; 3], size: f64) -> [DVec3; 3] {
     let [a, b, c] = vertices;
     if (b - a).cross(c - a).length() < 1e-3 * size * size {
         return [DVec3::ZERO, DVec3::X * size, DVec3::Y * size];
