@@ -19,7 +19,7 @@ use crate::random_scene::{Random, apart, object, random_tilt};
 /// What random scenes of meshes are made of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RandomMeshScene {
-    /// How many walls stand on the floor: 0 to 2.
+    /// How many walls there are beside the floor: 0 to 2.
     pub walls: RangeInclusive<usize>,
     /// How many things cast shadows, besides walls.
     pub casters: RangeInclusive<usize>,
