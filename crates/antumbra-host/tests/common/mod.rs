@@ -1,4 +1,5 @@
 //! The oracle's side of the comparisons.
+#![allow(dead_code, reason = "each test program uses a part")]
 
 use antumbra_host::{Api, HeadlessContext};
 use antumbra_reference::{Ray, Sampling, Tracer};
