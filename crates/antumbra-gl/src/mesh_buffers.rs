@@ -2,6 +2,7 @@
 
 use crate::Error;
 use antumbra_math::TriangleMesh;
+use glam::DVec3;
 use glow::HasContext;
 use std::collections::HashMap;
 
@@ -14,6 +15,8 @@ pub(crate) struct MeshBuffers {
     pub(crate) vertex_array: glow::VertexArray,
     /// Elements: `UNSIGNED_INT`, triangles.
     pub(crate) count: i32,
+    /// The lowest and the highest coordinates of the triangles' corners.
+    pub(crate) bounds: [DVec3; 2],
     buffers: [glow::Buffer; 2],
     unused: u32,
 }
@@ -38,6 +41,9 @@ impl MeshBuffers {
         let too_large =
             || Error::Unsupported { what: "a mesh of this many triangles", needs: "several smaller meshes" };
         let count = i32::try_from(mesh.triangles().len() * 3).map_err(|_| too_large())?;
+        let corners = mesh.triangles().as_flattened().iter().map(|&i| mesh.positions()[i as usize]);
+        let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let bounds = corners.fold(none, |[low, high], p| [low.min(p), high.max(p)]);
         let positions: Vec<[f32; 3]> = mesh.positions().iter().map(|p| p.as_vec3().to_array()).collect();
         // SAFETY: a guard is alive; every object is deleted if the next one cannot be made.
         unsafe {
@@ -59,7 +65,7 @@ impl MeshBuffers {
             gl.buffer_data_u8_slice(glow::ELEMENT_ARRAY_BUFFER, triangles, glow::STATIC_DRAW);
             gl.enable_vertex_attrib_array(0);
             gl.vertex_attrib_pointer_f32(0, 3, glow::FLOAT, false, 12, 0);
-            Ok(Self { vertex_array, count, buffers: [vertices, elements], unused: 0 })
+            Ok(Self { vertex_array, count, bounds, buffers: [vertices, elements], unused: 0 })
         }
     }
 

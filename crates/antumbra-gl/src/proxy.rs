@@ -57,6 +57,27 @@ impl ProxyBuilder {
             Some(end) => self.near.extend(self.rays.iter().map(|&(p, d)| clip(p + d * crossing(end, p, d)))),
             None => self.away.extend(self.rays.iter().map(|&(_, d)| view.projection * d.extend(0.0))),
         }
+        self.bound_ends(view, size)
+    }
+
+    /// The same for the convex hull of corners and of the directions in which it goes on without end, both in
+    /// clip space.
+    pub(crate) fn bound_hull(
+        &mut self,
+        corners_cs: impl IntoIterator<Item = DVec4>,
+        away_cs: impl IntoIterator<Item = DVec4>,
+        view: &View,
+    ) -> &[DVec2] {
+        self.hull.clear();
+        self.near.clear();
+        self.away.clear();
+        self.near.extend(corners_cs);
+        self.away.extend(away_cs);
+        self.bound_ends(view, view.size())
+    }
+
+    /// The polygon of what is in `near` and `away`.
+    fn bound_ends(&mut self, view: &View, size: DVec2) -> &[DVec2] {
         if self.outside_one_side(size) {
             return &self.hull;
         }

@@ -220,7 +220,7 @@ unsafe fn set(gl: &glow::Context, switch: u32, on: bool) {
 ///
 /// # Safety
 /// `caps` are the context's.
-unsafe fn set_color_mask(gl: &glow::Context, caps: Caps, [r, g, b, a]: [bool; 4]) {
+pub(crate) unsafe fn set_color_mask(gl: &glow::Context, caps: Caps, [r, g, b, a]: [bool; 4]) {
     // SAFETY: the indexed mask exists.
     unsafe {
         if caps.indexed_switches {

@@ -3,6 +3,7 @@
 pub mod analytic;
 mod casters;
 mod options;
+pub mod projected;
 
 use crate::frame::Frame;
 use crate::resources::Target;
@@ -97,6 +98,8 @@ macro_rules! techniques {
 techniques! {
     /// Exact closed forms, on any surface.
     Analytic = analytic, "analytic";
+    /// Triangles flattened onto planes and rectangles, with a stencil buffer.
+    Projected = projected, "projected";
 }
 
 impl Technique {

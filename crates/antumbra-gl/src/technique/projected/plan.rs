@@ -1,0 +1,223 @@
+//! What is to be drawn: every light, receiver and caster, culled, with its matrix.
+
+use super::receivers::{Receivers, eye, facing, height, plane_model};
+use crate::Error;
+use crate::mesh_buffers::MeshCache;
+use crate::proxy::ProxyBuilder;
+use crate::scenery::Light;
+use crate::technique::Pass;
+use crate::technique::casters::{casters, planes};
+use crate::tiles::TileGrid;
+use antumbra_math::mesh::planar_projection;
+use antumbra_math::{Plane, TriangleMesh};
+use glam::{DMat4, DVec3, DVec4};
+use std::sync::LazyLock;
+
+/// Heights and weights within this part of the numbers they are the difference of are zero.
+const ROUNDING: f64 = 1e-9;
+
+/// A shadow is bounded by the shadows of its caster's box where these are nearer than this many times the light's
+/// height: farther away it is bounded by its receiver.
+const FARTHEST: f64 = 1e6;
+
+/// Four triangles with a tip and a base of four corners. With the base at infinity they are a whole plane.
+static PYRAMID: LazyLock<TriangleMesh> = LazyLock::new(|| {
+    let positions = vec![DVec3::Y, DVec3::X, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Z];
+    let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]];
+    TriangleMesh::new(positions, triangles).expect("five corners and four triangles are a mesh")
+});
+
+/// A caster in the world.
+pub(super) struct Posed {
+    pub(super) vertex_array: glow::VertexArray,
+    /// Elements: three a triangle.
+    pub(super) count: i32,
+    /// To the world: affine, or for an infinite plane projective.
+    model: DMat4,
+    id: u32,
+    /// Of the box round the mesh: homogeneous, world space.
+    corners: [DVec4; 8],
+    /// For an infinite plane.
+    plane: Option<Plane>,
+}
+
+/// One caster's shadow on one receiver.
+pub(super) struct Draw {
+    /// Index in [`Receivers::placed`].
+    pub(super) receiver: usize,
+    /// Index in the batch.
+    pub(super) light: usize,
+    /// Index in [`Plan::posed`].
+    pub(super) caster: usize,
+    /// From the mesh to clip space.
+    pub(super) to_clip: [f32; 16],
+    /// Height and weight, from the mesh's space: see caster.vert.glsl.
+    pub(super) cut: [f32; 8],
+}
+
+/// The draws of a batch of lights; keeps its memory from one to the next.
+#[derive(Default)]
+pub(super) struct Plan {
+    pub(super) posed: Vec<Posed>,
+    /// Sorted by receiver.
+    pub(super) draws: Vec<Draw>,
+    /// Of light, caster and receiver those looked at, and the triangles drawn for them, since the frame began.
+    pub(super) counts: (usize, usize),
+}
+
+impl Plan {
+    /// Poses the frame's casters.
+    ///
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive.
+    pub(super) unsafe fn begin(&mut self, pass: &Pass<'_>, meshes: &mut MeshCache) -> Result<(), Error> {
+        self.posed.clear();
+        self.counts = (0, 0);
+        for caster in casters(pass) {
+            // SAFETY: the caller's.
+            unsafe { self.pose(pass, meshes, caster.mesh, caster.model, caster.id, None)? };
+        }
+        for (plane, id) in planes(pass) {
+            if plane.normal.is_finite() && plane.offset.is_finite() && plane.normal != DVec3::ZERO {
+                let model = plane_model(&plane, pass.view);
+                // SAFETY: the caller's.
+                unsafe { self.pose(pass, meshes, &PYRAMID, model, id, Some(plane))? };
+            }
+        }
+        Ok(())
+    }
+
+    /// # Safety
+    /// As for [`Self::begin`].
+    unsafe fn pose(
+        &mut self,
+        pass: &Pass<'_>,
+        meshes: &mut MeshCache,
+        mesh: &TriangleMesh,
+        model: DMat4,
+        id: u32,
+        plane: Option<Plane>,
+    ) -> Result<(), Error> {
+        // SAFETY: the caller's.
+        let buffers = unsafe { meshes.get(pass.gl, mesh)? };
+        let [low, high] = buffers.bounds;
+        let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|corner: u32| {
+            let end = |axis: u32| corner >> axis & 1 == 1;
+            let corner = DVec3::select(glam::BVec3::new(end(0), end(1), end(2)), high, low);
+            model * corner.extend(1.0)
+        });
+        let (vertex_array, count) = (buffers.vertex_array, buffers.count);
+        self.posed.push(Posed { vertex_array, count, model, id, corners, plane });
+        Ok(())
+    }
+
+    /// Finds the draws of some lights, and touches the tiles they may darken.
+    pub(super) fn find(
+        &mut self,
+        pass: &Pass<'_>,
+        receivers: &Receivers,
+        lights: &[Light],
+        proxy: &mut ProxyBuilder,
+        tiles: &mut TileGrid,
+    ) {
+        self.draws.clear();
+        let view = pass.view;
+        let eye = eye(view);
+        let to_clip = view.projection * view.view;
+        for (receiver, placed) in receivers.placed.iter().enumerate() {
+            for (light, source) in lights.iter().enumerate() {
+                let l = source.place.homogeneous();
+                // The side that is seen must be the one that is lit; a light in the plane lights neither.
+                let lit = l.is_finite()
+                    && height(&placed.plane, l) > 0.0
+                    && facing(&placed.plane, l).is_some()
+                    && source.intensity != glam::Vec3::ZERO;
+                if !lit {
+                    continue;
+                }
+                let flatten = planar_projection(&placed.plane, l) * height(&placed.plane, l).recip();
+                for (caster, posed) in self.posed.iter().enumerate() {
+                    self.counts.0 += 1;
+                    let own = posed.id != 0 && posed.id == placed.id;
+                    if own || posed.hides_its_own_shadow(l, eye) || !posed.is_reached(source) {
+                        continue;
+                    }
+                    let reach = posed.reach(&placed.plane, &placed.sides, &flatten);
+                    let polygon = match reach {
+                        Reach::Nothing => continue,
+                        Reach::Far => receivers.polygon(placed),
+                        Reach::Within(shadow) => proxy.bound_hull(shadow.map(|p| to_clip * p), [], view),
+                    };
+                    if polygon.len() < 3 {
+                        continue;
+                    }
+                    tiles.touch(polygon);
+                    self.counts.1 += posed.count as usize / 3;
+                    let flat_model = flatten * posed.model;
+                    let plane = placed.plane.normal.extend(-placed.plane.offset);
+                    let rows = [posed.model.transpose() * plane, flat_model.row(3)].map(|r| r.as_vec4());
+                    self.draws.push(Draw {
+                        receiver,
+                        light,
+                        caster,
+                        to_clip: (to_clip * flat_model).as_mat4().to_cols_array(),
+                        cut: bytemuck::cast(rows),
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// Where a caster's shadow is on a plane.
+enum Reach {
+    /// Nowhere.
+    Nothing,
+    /// Perhaps as far as one can see.
+    Far,
+    /// Inside the convex hull of these points of weight 1, world space.
+    Within([DVec4; 8]),
+}
+
+impl Posed {
+    /// Whether nothing that is seen can lie in the shadow: an opaque infinite plane, drawn by the host, with the eye
+    /// on the light's side hides all that it takes the light from.
+    fn hides_its_own_shadow(&self, light: DVec4, eye: DVec4) -> bool {
+        let Some(plane) = self.plane else { return false };
+        self.id != 0 && eye.w > 0.0 && height(&plane, light) * height(&plane, eye) > 0.0
+    }
+
+    /// Whether any light arrives at the caster: false only outside a spot's cone.
+    fn is_reached(&self, light: &Light) -> bool {
+        if self.plane.is_some() {
+            return true;
+        }
+        let [first, .., last] = self.corners.map(DVec4::truncate);
+        // The middle of a box, whatever its pose.
+        let center = (first + last) * 0.5;
+        let radius = self.corners.iter().map(|c| c.truncate().distance(center)).fold(0.0, f64::max);
+        light.place.may_reach(center, radius)
+    }
+
+    fn reach(&self, plane: &Plane, sides: &[DVec4; 2], flatten: &DMat4) -> Reach {
+        let heights = self.corners.map(|c| {
+            let h = height(plane, c);
+            let rounding = ROUNDING * (c.truncate().length() + plane.offset.abs() * c.w);
+            if h.abs() <= rounding { 0.0 } else { h }
+        });
+        let shadow = self.corners.map(|c| *flatten * c);
+        // In the plane or behind it; level with the light or beyond.
+        if heights.iter().all(|&h| h <= 0.0) || shadow.iter().all(|s| s.w <= 0.0) {
+            return Reach::Nothing;
+        }
+        let bounded = self.plane.is_none() && shadow.iter().all(|s| s.w * FARTHEST > 1.0);
+        if !bounded {
+            return Reach::Far;
+        }
+        let beside = |side: &DVec4, sign: f64| shadow.iter().all(|s| sign * side.dot(*s) > s.w);
+        if sides.iter().any(|side| beside(side, 1.0) || beside(side, -1.0)) {
+            return Reach::Nothing;
+        }
+        Reach::Within(shadow.map(|s| s / s.w))
+    }
+}

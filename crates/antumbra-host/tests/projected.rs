@@ -1,0 +1,126 @@
+//! The technique `projected` against the ray tracer, on the pixels of its receivers: nothing falls on others.
+
+mod common;
+
+use antumbra::Technique;
+use antumbra_host::{Api, RenderOptions, Stage, describe};
+use antumbra_reference::{Sampling, Tracer};
+use antumbra_scene::Scene;
+use antumbra_testkit::metrics::{edge_band, misclassified};
+use antumbra_testkit::random_mesh_scene::{RandomMeshScene, random_mesh_scene};
+use antumbra_testkit::random_scene::{RandomScene, random_scene};
+use std::path::Path;
+
+/// Scenes of each kind; `ANTUMBRA_SCENES` sets another number.
+const SCENES: u64 = 20;
+
+/// Pixels on either side of an edge that are not judged. Edges are not antialiased, so half a pixel is the pixel grid's;
+/// the rest is what a tessellated circle and float32 matrices are off where a shadow is long.
+const BAND: usize = 2;
+
+fn projected() -> Technique {
+    Technique::parse("projected").expect("the technique's name")
+}
+
+/// What a comparison finds.
+#[derive(Debug, Default)]
+struct Found {
+    /// Pixels on the wrong side outside the band.
+    wrong: usize,
+    /// Receivers' pixels outside the band: dark, and lit.
+    dark: usize,
+    lit: usize,
+    lights: usize,
+}
+
+impl Found {
+    fn add(&mut self, other: &Self) {
+        self.wrong += other.wrong;
+        self.dark += other.dark;
+        self.lit += other.lit;
+        self.lights += other.lights;
+    }
+}
+
+fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
+    let (width, height) = (scene.image.width, scene.image.height);
+    let technique = projected();
+    let options =
+        RenderOptions { time: 0.0, width, height, msaa: 1, visibility: true, shadows: true, technique };
+    let drawn = stage.render(scene, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let moment = scene.moment(0.0);
+    let described = describe(scene, &moment).expect("a right scene");
+    let receives = |id: Option<u32>| described.receivers.iter().any(|r| Some(r.id) == id.map(|id| id + 1));
+    let tracer = Tracer::new(scene, 0.0);
+    let ids = tracer.primitives_seen(width, height);
+    let mut found = Found::default();
+    for (light, test) in drawn.visibility.iter().enumerate() {
+        let centers = Sampling::Center { light_samples: 1 };
+        let truth = tracer.visibility(light, width, height, centers, &|_, _| {});
+        let mut band = edge_band(&truth, &ids, width as usize, height as usize, BAND);
+        band.iter_mut().zip(&ids).for_each(|(skip, &id)| *skip |= !receives(id));
+        let wrong = misclassified(test, &truth, &band);
+        if wrong > 0 {
+            eprintln!("{name}, light {light} ({:?}): {wrong} pixels wrong", scene.lights[light].kind);
+        }
+        let judged = || truth.iter().zip(&band).filter(|(_, skip)| !**skip).map(|(v, _)| *v);
+        found.add(&Found {
+            wrong,
+            dark: judged().filter(|v| *v < 0.5).count(),
+            lit: judged().filter(|v| *v >= 0.5).count(),
+            lights: 1,
+        });
+    }
+    found
+}
+
+/// Compares scenes, and sees to it that there is something to judge.
+fn classify(what: &str, api: Api, scenes: impl Iterator<Item = (String, Scene)>) {
+    let Some(context) = common::context(api) else { return };
+    let mut stage = Stage::new(context.gl()).expect("a stage");
+    let mut all = Found::default();
+    for (name, scene) in scenes {
+        all.add(&compare(&mut stage, &scene, &name));
+    }
+    eprintln!("{what}, {api:?}: {all:?}");
+    assert!(all.dark > 1000 && all.lit > 1000, "{what}: there is shadow and light to judge");
+    assert_eq!(all.wrong, 0, "{what}: pixels on the wrong side outside the band");
+}
+
+fn count() -> u64 {
+    std::env::var("ANTUMBRA_SCENES").map_or(SCENES, |n| n.parse().expect("a number of scenes"))
+}
+
+/// Meshes, closed and open, tessellated solids and flat shapes.
+#[test]
+fn random_meshes_are_classified_right() {
+    let scene = |seed| (format!("meshes {seed}"), random_mesh_scene(seed, &RandomMeshScene::default()));
+    classify("meshes", Api::Gl33, (0..count()).map(scene));
+    classify("meshes", Api::Gles30, (1000..1000 + count() / 5).map(scene));
+}
+
+/// Spheres, cones, discs and triangles; in every other scene the receivers cast too.
+#[test]
+fn random_shapes_are_classified_right() {
+    let scene = |seed| {
+        let mut scene = random_scene(seed, &RandomScene { size: (480, 270), ..RandomScene::default() });
+        scene.objects[..2].iter_mut().for_each(|o| o.casts_shadow = seed % 2 == 1);
+        (format!("shapes {seed}"), scene)
+    };
+    classify("shapes", Api::Gl33, (0..count()).map(scene));
+    classify("shapes", Api::Gles30, (1000..1000 + count() / 5).map(scene));
+}
+
+/// Gallery scenes that have a receiver: rooms, rectangles in any pose, balls through the floor.
+#[test]
+fn gallery_scenes_are_classified_right() {
+    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let scenes = ["balls-on-the-floor", "through-the-plane", "shadows-on-objects", "sun-and-spotlights"]
+        .into_iter()
+        .map(|name| {
+            let mut scene = Scene::load(&gallery.join(name).with_extension("toml")).expect("a gallery scene");
+            (scene.image.width, scene.image.height) = (480, 270);
+            (name.to_owned(), scene)
+        });
+    classify("the gallery", Api::Gl33, scenes);
+}
