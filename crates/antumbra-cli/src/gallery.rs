@@ -33,6 +33,8 @@ pub(crate) const GALLERY: &[Entry] = gallery![
     "mobile",
     "winter-evening",
     "many-lights",
+    "furnished-room",
+    "staircase",
 ];
 
 #[cfg(test)]

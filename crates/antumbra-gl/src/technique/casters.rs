@@ -58,6 +58,15 @@ pub(crate) fn planes<'a>(pass: &Pass<'a>) -> impl Iterator<Item = (Plane, u32)> 
 
 fn of_occluder(occluder: &Occluder) -> Option<Caster<'static>> {
     let unit: &'static UnitShapes = &UNIT;
+    let size = match occluder.shape {
+        Shape::Sphere(s) => s.radius,
+        Shape::Disc(s) => s.radius,
+        Shape::Cone(s) => s.radius.min(s.height),
+        _ => f64::INFINITY,
+    };
+    if !(size > 0.0) {
+        return None; // a negative one would make a model all the same
+    }
     let (mesh, model) = match occluder.shape {
         Shape::Plane(_) => return None,
         Shape::Sphere(s) => {

@@ -17,6 +17,7 @@ mod depth_only;
 mod leaks;
 mod lights;
 mod occluders;
+mod projected;
 mod samples;
 mod state;
 mod steady;

@@ -24,7 +24,7 @@ fn no_occluders_no_shadows() {
 }
 
 /// Occluders that are none: zero sizes, NaN, infinities.
-fn nonsense() -> Vec<Occluder> {
+pub(crate) fn nonsense() -> Vec<Occluder> {
     let mut all = Vec::new();
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let at = DVec3::new(bad, 1.0, 0.0);

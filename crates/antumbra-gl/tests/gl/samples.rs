@@ -9,8 +9,8 @@ use glam::{DMat4, DVec3, Vec4};
 use glow::HasContext;
 use std::cell::Cell;
 
-const SAMPLES: i32 = 4;
-const SIZE: [i32; 2] = [VIEWPORT[2], VIEWPORT[3]];
+pub(crate) const SAMPLES: i32 = 4;
+pub(crate) const SIZE: [i32; 2] = [VIEWPORT[2], VIEWPORT[3]];
 
 const HEADER: &str = "#version 330 core\n#extension GL_ARB_sample_shading : require\n";
 
@@ -64,7 +64,11 @@ fn draw(
 }
 
 /// Multisampled textures of these formats on a framebuffer; a depth format comes last.
-fn multisampled(gl: &Gl, size: [i32; 2], formats: &[u32]) -> (Vec<glow::Texture>, glow::Framebuffer) {
+pub(crate) fn multisampled(
+    gl: &Gl,
+    size: [i32; 2],
+    formats: &[u32],
+) -> (Vec<glow::Texture>, glow::Framebuffer) {
     let kind = glow::TEXTURE_2D_MULTISAMPLE;
     // SAFETY: fresh objects in this context.
     unsafe {
@@ -94,7 +98,7 @@ fn multisampled(gl: &Gl, size: [i32; 2], formats: &[u32]) -> (Vec<glow::Texture>
 }
 
 /// One sample of every pixel of a colour texture.
-fn read_sample(gl: &Gl, source: glow::Texture, size: [i32; 2], sample: i32) -> Vec<Vec4> {
+pub(crate) fn read_sample(gl: &Gl, source: glow::Texture, size: [i32; 2], sample: i32) -> Vec<Vec4> {
     let float = [glow::RGBA32F, glow::RGBA, glow::FLOAT];
     let target = texture(&gl.gl, size, float, &vec![Vec4::NAN; (size[0] * size[1]) as usize]);
     let fragment = "#version 330 core\nuniform sampler2DMS u_0; uniform int u_sample; out vec4 o;\n\
@@ -114,7 +118,7 @@ fn read_sample(gl: &Gl, source: glow::Texture, size: [i32; 2], sample: i32) -> V
 }
 
 /// Where this driver's samples are, in pixels.
-fn sample_positions(gl: &Gl) -> Vec<[f64; 2]> {
+pub(crate) fn sample_positions(gl: &Gl) -> Vec<[f64; 2]> {
     let (textures, framebuffer) = multisampled(gl, [1, 1], &[glow::RGBA32F]);
     let fragment = format!("{HEADER}out vec4 o; void main() {{ o = vec4(gl_SamplePosition, 0.0, 1.0); }}");
     draw(gl, &fragment, framebuffer, [1, 1], &[], 0);
@@ -127,7 +131,7 @@ fn sample_positions(gl: &Gl) -> Vec<[f64; 2]> {
 }
 
 /// What a multisampling host has drawn: the same as one shot for each sample.
-fn surface(gl: &Gl, shots: &[Shot<'_>]) -> Surface {
+pub(crate) fn surface(gl: &Gl, shots: &[Shot<'_>]) -> Surface {
     let formats = [glow::RGBA32F, glow::R32UI, glow::DEPTH_COMPONENT32F];
     let (textures, framebuffer) = multisampled(gl, SIZE, &formats);
     // A sample a texture: of each shot its depth, normals and ids.
@@ -169,7 +173,7 @@ fn surface(gl: &Gl, shots: &[Shot<'_>]) -> Surface {
 }
 
 /// The camera whose pixel centres are this one's samples.
-fn shifted(camera: &Camera, [x, y]: [f64; 2]) -> Camera {
+pub(crate) fn shifted(camera: &Camera, [x, y]: [f64; 2]) -> Camera {
     let pixel = DVec3::new(2.0 / f64::from(SIZE[0]), 2.0 / f64::from(SIZE[1]), 0.0);
     let shift = DMat4::from_translation(pixel * DVec3::new(0.5 - x, 0.5 - y, 0.0));
     Camera { view: camera.view, projection: shift * camera.projection }

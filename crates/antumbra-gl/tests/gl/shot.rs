@@ -92,6 +92,8 @@ impl<'w> Shot<'w> {
         Frame {
             lights: &self.world.lights,
             occluders: &self.world.occluders,
+            meshes: &self.world.meshes,
+            receivers: &self.world.receivers,
             ambient: self.world.ambient,
             ..Frame::new(self.camera, self.viewport, surface)
         }

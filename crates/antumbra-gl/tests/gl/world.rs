@@ -1,7 +1,7 @@
 //! Scenes, and their shadows by ray tracing.
 
 use crate::shot::Shot;
-use antumbra_gl::{Camera, Light, Occluder, ShaderLight};
+use antumbra_gl::{Camera, Light, MeshOccluder, Occluder, Receiver, ShaderLight};
 use antumbra_host::describe;
 use antumbra_reference::{Ray, Surface, Tracer};
 use antumbra_scene::{Moment, Scene};
@@ -67,6 +67,8 @@ translation = [-0.2, 0.3, 1.4]
 pub(crate) struct World {
     pub(crate) lights: Vec<Light>,
     pub(crate) occluders: Vec<Occluder>,
+    pub(crate) meshes: Vec<MeshOccluder>,
+    pub(crate) receivers: Vec<Receiver>,
     pub(crate) ambient: Vec3,
     pub(crate) view: DMat4,
     /// Whether shadows fall on a primitive.
@@ -89,6 +91,8 @@ impl World {
         Self {
             lights: described.lights,
             occluders: described.occluders,
+            meshes: described.meshes,
+            receivers: described.receivers,
             ambient: scene.ambient.as_vec3() * std::f32::consts::PI,
             view: scene.camera.view(),
             receives: moment.primitives.iter().map(|p| p.receives_shadow).collect(),

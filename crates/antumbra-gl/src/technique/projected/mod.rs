@@ -23,7 +23,7 @@ use crate::tiles::TileGrid;
 use crate::{Caps, Encoding, Error};
 use glam::DVec4;
 use glow::HasContext;
-use plan::Plan;
+use plan::{Draw, Plan};
 use receivers::Receivers;
 
 /// What it is.
@@ -168,50 +168,74 @@ impl State {
         }
         let gl = pass.gl;
         let once = options(pass).stencil;
-        // SAFETY: the caller's; the guards outlive the settings.
+        let last_mark = if once { MARKS } else { 1 };
+        // SAFETY: the caller's; the guard outlives the settings.
         unsafe {
             if let Err(error) = self.stencil.attach(gl, target) {
                 StencilBuffer::detach(gl, target);
                 return Err(error);
             }
-            {
-                let _raster = RasterGuard::new(gl);
-                gl.enable(glow::STENCIL_TEST);
-                gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[0]);
-                let last_mark = if once { MARKS } else { 1 };
-                let mut mark = 0;
-                for draws in self.plan.draws.chunk_by(|a, b| a.receiver == b.receiver) {
-                    let mut draws = draws.iter().filter(|draw| lights.contains(&draw.light)).peekable();
-                    let Some(draw) = draws.peek() else { continue };
-                    if mark == last_mark {
-                        gl.stencil_mask(MARKS as u32);
-                        gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[0]);
-                        mark = 0;
-                    }
-                    mark += 1;
-                    self.mark(pass, draw.receiver, mark, !once);
-                    gl.use_program(Some(pass.programs[CASTER].raw));
-                    let [to_clip, cut, shade_at] = &pass.programs[CASTER].own[..] else {
-                        unreachable!("one location a name")
-                    };
-                    gl.stencil_op(glow::KEEP, glow::KEEP, if once { glow::INVERT } else { glow::KEEP });
-                    for draw in draws {
-                        let light = draw.light - first_light;
-                        let darkened = DARKENED << light;
-                        gl.stencil_func(glow::EQUAL, mark, (MARKS | darkened) as u32);
-                        gl.stencil_mask(darkened as u32);
-                        gl.uniform_matrix_4_f32_slice(to_clip.as_ref(), false, &draw.to_clip);
-                        gl.uniform_4_f32_slice(cut.as_ref(), &draw.cut);
-                        gl.uniform_4_f32_slice(shade_at.as_ref(), &shade(light));
-                        let caster = &self.plan.posed[draw.caster];
-                        gl.bind_vertex_array(Some(caster.vertex_array));
-                        gl.draw_elements(glow::TRIANGLES, caster.count, glow::UNSIGNED_INT, 0);
-                    }
+            let raster = RasterGuard::new(gl);
+            gl.enable(glow::STENCIL_TEST);
+            gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[0]);
+            let mut mark = 0;
+            for draws in self.plan.draws.chunk_by(|a, b| a.receiver == b.receiver) {
+                let mut draws = draws.iter().filter(|draw| lights.contains(&draw.light)).peekable();
+                let Some(draw) = draws.peek() else { continue };
+                if mark == last_mark {
+                    gl.stencil_mask(MARKS as u32);
+                    gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[0]);
+                    mark = 0;
                 }
+                mark += 1;
+                self.mark(pass, draw.receiver, mark, !once);
+                gl.stencil_op(glow::KEEP, glow::KEEP, if once { glow::INVERT } else { glow::KEEP });
+                self.clip(pass, true);
+                for draw in draws {
+                    let light = draw.light - first_light;
+                    let darkened = DARKENED << light;
+                    gl.stencil_func(glow::EQUAL, mark, (MARKS | darkened) as u32);
+                    gl.stencil_mask(darkened as u32);
+                    self.cast(pass, draw, &shade(light));
+                }
+                self.clip(pass, false);
             }
+            drop(raster);
             StencilBuffer::detach(gl, target);
         }
         Ok(())
+    }
+
+    /// Draws one caster's shadow where the stencil test passes.
+    ///
+    /// # Safety
+    /// As for [`Self::draw_group`].
+    unsafe fn cast(&self, pass: &Pass<'_>, draw: &Draw, shade: &[f32; 4]) {
+        let (gl, program) = (pass.gl, &pass.programs[CASTER]);
+        let [to_clip_at, cut_at, shade_at] = &program.own[..] else { unreachable!("one location a name") };
+        let caster = &self.plan.posed[draw.caster];
+        // SAFETY: the caller's; the elements are those of the vertex array.
+        unsafe {
+            gl.use_program(Some(program.raw));
+            gl.uniform_matrix_4_f32_slice(to_clip_at.as_ref(), false, &draw.to_clip);
+            gl.uniform_4_f32_slice(cut_at.as_ref(), &draw.cut);
+            gl.uniform_4_f32_slice(shade_at.as_ref(), shade);
+            gl.bind_vertex_array(Some(caster.vertex_array));
+            gl.draw_elements(glow::TRIANGLES, caster.count, glow::UNSIGNED_INT, 0);
+        }
+    }
+
+    /// Switches the clip distances that casters of multisampled surfaces write; other programs write none.
+    ///
+    /// # Safety
+    /// As for [`Self::draw_group`].
+    unsafe fn clip(&self, pass: &Pass<'_>, on: bool) {
+        if pass.frame.surface.samples > 1 {
+            for distance in [glow::CLIP_DISTANCE0, glow::CLIP_DISTANCE1] {
+                // SAFETY: multisampled surfaces are of desktop OpenGL, which has clip distances.
+                unsafe { if on { pass.gl.enable(distance) } else { pass.gl.disable(distance) } }
+            }
+        }
     }
 
     /// Draws what painted shadows leave of the picture into `slot`, and touches the tiles they may darken.

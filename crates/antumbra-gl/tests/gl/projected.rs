@@ -1,0 +1,498 @@
+//! The technique `projected`: what falls on its receivers, and what must not.
+
+use crate::context::{Gl, in_each_api};
+use crate::lights::{many_lights, overlay};
+use crate::occluders::nonsense;
+use crate::samples;
+use crate::shot::{Shot, VIEWPORT};
+use crate::world::{ONE_OF_EACH, World};
+use antumbra_gl::technique::Part;
+use antumbra_gl::{
+    Area, Camera, DepthFormat, Encoding, Error, Frame, Light, Occluder, Receiver, ReceiverShape, Renderer,
+    Technique,
+};
+use antumbra_math::{Plane, Rectangle};
+use glam::{DMat4, DVec3, Vec3};
+use std::cell::Cell;
+
+fn renderer(gl: &Gl, technique: &str) -> Renderer {
+    let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+    let technique = Technique::parse(technique).expect("a technique");
+    renderer.set_technique(technique).expect("the driver has what it needs");
+    renderer
+}
+
+/// Asserts that the masks on the receivers' pixels are the tracer's visibilities, and 255 elsewhere; edges, which are
+/// not antialiased, are left out. Returns how many pixels are dark.
+fn assert_right(world: &World, shot: &Shot<'_>, masks: &[Vec<u8>], what: &str) -> usize {
+    let truth = world.truth(shot);
+    let on_receiver = |i: usize| {
+        shot.seen[i].is_some_and(|s| {
+            let id = s.primitive + 1;
+            world.receives[s.primitive as usize] && world.receivers.iter().any(|r| r.id == id)
+        })
+    };
+    let mut dark = 0;
+    for (light, mask) in masks.iter().enumerate() {
+        for i in 0..mask.len() {
+            if !on_receiver(i) {
+                assert_eq!(mask[i], 255, "{what}, light {light}, pixel {i}: no receiver, no shadow");
+                continue;
+            }
+            let (visibility, irradiance) = truth.lights[light][i];
+            if truth.sure[i] && irradiance != Vec3::ZERO {
+                let right = mask[i] == if visibility > 0.5 { 255 } else { 0 };
+                assert!(right, "{what}, light {light}, pixel {i}: {} for {visibility}", mask[i]);
+                dark += usize::from(visibility < 0.5);
+            }
+        }
+    }
+    dark
+}
+
+/// A scene of one camera over a floor.
+fn over_floor(lights: &str, objects: &str) -> World {
+    World::parse(&format!(
+        r#"
+        camera = {{ eye = [1.0, 3.5, 7.0], target = [0.0, 0.6, 0.0] }}
+        {lights}
+        [[object]]
+        name = "floor"
+        shape = {{ type = "plane" }}
+        {objects}
+        "#
+    ))
+}
+
+fn point(position: [f64; 3]) -> String {
+    format!("[[light]]\nname = \"l\"\ntype = \"point\"\nposition = {position:?}\nintensity = 50.0\n")
+}
+
+fn sun(direction: [f64; 3]) -> String {
+    format!("[[light]]\nname = \"l\"\ntype = \"directional\"\ndirection = {direction:?}\nintensity = 2.0\n")
+}
+
+fn object(shape: &str, translation: [f64; 3]) -> String {
+    format!("[[object]]\nname = \"o\"\nshape = {{ {shape} }}\ntranslation = {translation:?}\n")
+}
+
+/// Draws a world's masks and judges them.
+fn dark_pixels(gl: &Gl, world: &World, what: &str) -> usize {
+    let shot = Shot::new(gl, world);
+    let masks = shot.masks(&mut renderer(gl, "projected"), &shot.frame());
+    assert_right(world, &shot, &masks, what)
+}
+
+#[test]
+fn every_caster_shadows_every_receiver_and_nothing_else() {
+    in_each_api(|gl| {
+        let dark = dark_pixels(gl, &World::one_of_each(), "one of each");
+        assert!(dark > 500, "there are shadows: {dark}");
+        // Two targets; more than one batch.
+        let dark = dark_pixels(gl, &many_lights(11), "eleven lights");
+        assert!(dark > 3000, "there are shadows: {dark}");
+    });
+}
+
+#[test]
+fn only_what_is_between_plane_and_light_casts() {
+    in_each_api(|gl| {
+        let ball = "type = \"sphere\", radius = 0.5";
+        let high = point([0.5, 3.0, -1.5]);
+        let sliver = "type = \"triangle\", vertices = [[-0.4, 0.2, 0.0], [0.4, 0.2, 0.0], [0.2, 6.0, 0.3]]";
+        let long = "type = \"triangle\", vertices = [[-0.3, 0.3, 0.0], [0.3, 0.3, 0.0], [0.0, 40.0, -9.0]]";
+        for (what, light, shape, at, casts) in [
+            ("between", &high, ball, [0.0, 1.0, 0.0], true),
+            ("beyond the light", &high, ball, [1.5, 4.0, 0.0], false),
+            ("level with the light", &high, ball, [0.3, 2.6, -2.4], true),
+            ("through the light's plane", &high, sliver, [-1.0, 0.0, 0.0], true),
+            ("far through the light's plane", &high, long, [-0.5, 0.0, 0.5], true),
+            ("round the light", &high, ball, [0.4, 3.1, -1.5], true),
+            ("behind the floor", &high, ball, [0.0, -0.6, 0.0], false),
+            ("through the floor", &high, ball, [-1.5, 0.2, 1.5], true),
+            ("through the floor and the light's plane", &high, sliver, [-1.0, -2.5, 0.0], true),
+            ("on the floor", &high, ball, [0.0, 0.5, 0.0], true),
+            ("in the floor", &high, "type = \"disc\", radius = 0.5", [0.0, 0.0, 0.0], false),
+            ("a sun from above", &sun([0.4, -1.0, -0.3]), ball, [0.0, 1.0, 0.0], true),
+            ("a sun, behind the floor", &sun([0.4, -1.0, -0.3]), ball, [0.0, -0.6, 0.0], false),
+            ("a low sun, through the floor", &sun([1.0, -0.1, -0.3]), ball, [-1.0, 0.2, 0.0], true),
+            ("a sun from below", &sun([0.4, 1.0, -0.3]), ball, [0.0, 1.0, 0.0], false),
+            ("a sun along the floor", &sun([1.0, 0.0, 0.0]), ball, [0.0, 0.2, 0.0], false),
+            ("a light in the floor", &point([2.0, 0.0, 1.0]), ball, [0.0, 0.2, 0.0], false),
+            ("a light below the floor", &point([2.0, -1.0, 1.0]), ball, [0.0, 0.2, 0.0], false),
+            ("a light just over the floor", &point([2.0, 0.02, 1.0]), ball, [0.0, 0.2, 0.0], true),
+            ("a far light", &point([2e5, 4e5, 1e5]), ball, [0.0, 1.0, 0.0], true),
+            ("a light on the ball", &point([0.0, 1.5, 0.0]), ball, [0.0, 1.0, 0.0], true),
+        ] {
+            let world = over_floor(light, &object(shape, at));
+            let shot = Shot::new(gl, &world);
+            let masks = shot.masks(&mut renderer(gl, "projected"), &shot.frame());
+            // A light on a solid's surface lights half of the room or none: rounding says.
+            let dark = if what == "a light on the ball" {
+                masks[0].iter().filter(|&&m| m == 0).count()
+            } else {
+                assert_right(&world, &shot, &masks, what)
+            };
+            assert_eq!(dark > 40, casts, "{what}: {dark} dark pixels");
+            if !casts {
+                assert!(masks[0].iter().all(|&m| m == 255), "{what}: nothing at all is darkened");
+            }
+            gl.assert_no_complaint(what);
+        }
+    });
+}
+
+/// An infinite plane takes the light from all that is behind it: its shadow on another plane is a half-plane,
+/// everything or nothing. The planes here are not drawn, or they would hide their shadows.
+#[test]
+fn infinite_planes_cast() {
+    in_each_api(|gl| {
+        let high = DVec3::new(1.5, 3.0, 0.0);
+        let sun = Light::directional([-1.0, -1.0, -0.2], Vec3::ONE);
+        let above = Light::point(high, Vec3::ONE);
+        let (wall, slope) = (DVec3::X, DVec3::new(0.4, 1.0, 0.5));
+        for (what, light, through, normal) in [
+            ("a wall", above, [-0.4, 0.0, 0.0], wall),
+            ("a wall from behind", above, [-0.4, 0.0, 0.0], -wall),
+            ("a slope", above, [0.5, 0.2, 1.0], slope),
+            ("a slope through the light's foot", above, [1.5, 0.0, 0.0], slope),
+            ("a steep slope over the light", above, [1.4, 3.0, 0.0], DVec3::new(1.0, 0.01, 0.0)),
+            ("a wall in the sun", sun, [0.3, 0.0, 0.0], wall),
+            ("a slope in the sun", sun, [0.5, 0.2, 1.0], slope),
+            ("a ceiling under the light", above, [0.0, 2.5, 0.0], DVec3::Y),
+            ("a ceiling over the light", above, [0.0, 3.5, 0.0], DVec3::Y),
+            ("a ceiling in the sun", sun, [0.0, 3.5, 0.0], DVec3::NEG_Y),
+            ("the floor itself", above, [0.0, 0.0, 0.0], DVec3::Y),
+        ] {
+            let world = over_floor(&point([1.5, 3.0, 0.0]), "");
+            let shot = Shot::new(gl, &world);
+            let plane = Plane::through(through.into(), normal.normalize());
+            let (lights, occluders) = ([light], [Occluder::new(plane.into())]);
+            let frame = Frame { lights: &lights, occluders: &occluders, ..shot.frame() };
+            let masks = shot.masks(&mut renderer(gl, "projected"), &frame);
+            let mut judged = 0;
+            for (i, seen) in shot.seen.iter().enumerate() {
+                let Some(seen) = seen else { continue };
+                let l = light.place.homogeneous();
+                let light_side = plane.normal.dot(l.truncate()) - plane.offset * l.w;
+                let height = plane.height(seen.point);
+                // Two pixels of the farthest floor in sight; the floor itself has no other side.
+                if height.abs() < 0.2 && what != "the floor itself" {
+                    continue;
+                }
+                let lit = what == "the floor itself" || height * light_side > 0.0;
+                assert_eq!(masks[0][i], if lit { 255 } else { 0 }, "{what}: the floor at {}", seen.point);
+                judged += 1;
+            }
+            assert!(judged > 5000, "{what}: {judged} pixels to look at");
+        }
+    });
+}
+
+/// A table over a floor: the table's shadow on the floor, the ball's on both, cut at the table's edge.
+#[test]
+fn shadows_end_where_their_receivers_do() {
+    in_each_api(|gl| {
+        let table = format!(
+            "{}{}",
+            object("type = \"rectangle\", width = 1.6, depth = 1.2", [0.0, 1.0, 0.5]),
+            object("type = \"sphere\", radius = 0.45", [0.7, 1.6, 0.5]).replace("\"o\"", "\"ball\"")
+        );
+        let world = over_floor(&point([-0.5, 4.5, 1.5]), &table);
+        let dark = dark_pixels(gl, &world, "a table");
+        assert!(dark > 300, "there are shadows: {dark}");
+        // Without ids it is geometry that tells floor and table.
+        let shot = Shot::new(gl, &world);
+        let mut frame = shot.frame();
+        let mut renderer = renderer(gl, "projected");
+        let with_ids = shot.masks(&mut renderer, &frame);
+        let receivers: Vec<Receiver> = world.receivers.iter().map(|r| Receiver { id: 0, ..*r }).collect();
+        let occluders: Vec<Occluder> = world.occluders.iter().map(|o| o.with_id(0)).collect();
+        (frame.receivers, frame.occluders, frame.surface.ids) = (&receivers, &occluders, None);
+        assert!(with_ids == shot.masks(&mut renderer, &frame), "the same without ids");
+    });
+}
+
+/// Twenty-five receivers side by side: more than the stencil buffer has marks for.
+#[test]
+fn there_may_be_more_receivers_than_marks() {
+    in_each_api(|gl| {
+        let mut tiles = String::new();
+        for i in 0..25 {
+            let at = [f64::from(i % 5) - 2.0, 0.3, f64::from(i / 5) - 2.0];
+            tiles += &object("type = \"rectangle\", width = 0.9, depth = 0.9", at)
+                .replace("\"o\"", &format!("\"tile {i}\""));
+        }
+        tiles += &object("type = \"sphere\", radius = 1.2", [0.2, 2.0, 0.0]).replace("\"o\"", "\"ball\"");
+        let world = over_floor(&point([0.5, 6.0, 1.0]), &tiles);
+        assert!(world.receivers.len() == 26, "the tiles and the floor");
+        assert!(dark_pixels(gl, &world, "tiles") > 1000, "there are shadows");
+    });
+}
+
+/// The side of a wall that is turned away from the light gets none of it, and no shadow is drawn there.
+#[test]
+fn the_back_of_a_wall_stays_as_it_is() {
+    in_each_api(|gl| {
+        let wall = |z: f64| {
+            let world = format!(
+                "{}rotation = [0.70710678, 0.0, 0.0, 0.70710678]\n{}",
+                object("type = \"rectangle\", width = 4.0, depth = 3.0", [0.0, 1.5, 0.0]),
+                object("type = \"sphere\", radius = 0.5", [0.0, 1.5, z]).replace("\"o\"", "\"ball\"")
+            );
+            let world = over_floor(&point([0.0, 2.0, 3.0 * z]), &world);
+            let shot = Shot::new(gl, &world);
+            let masks = shot.masks(&mut renderer(gl, "projected"), &shot.frame());
+            assert_right(&world, &shot, &masks, "a wall");
+            let on_wall = |i: &usize| shot.seen[*i].is_some_and(|s| s.primitive == 1);
+            (0..shot.seen.len()).filter(on_wall).filter(|&i| masks[0][i] != 255).count()
+        };
+        assert!(wall(1.0) > 100, "the ball's shadow on the side that is seen");
+        assert_eq!(wall(-1.0), 0, "on the back");
+    });
+}
+
+#[test]
+fn surfaces_that_receive_nothing_and_casters_of_the_receivers_own_id_are_left_out() {
+    in_each_api(|gl| {
+        let ball = object("type = \"sphere\", radius = 0.5", [0.0, 1.0, 0.0]);
+        let world = over_floor(&point([0.5, 3.0, 1.0]), &ball);
+        let shot = Shot::new(gl, &world);
+        let mut renderer = renderer(gl, "projected");
+        let lit = |frame: &Frame<'_>, renderer: &mut Renderer| {
+            shot.masks(renderer, frame)[0].iter().all(|&m| m == 255)
+        };
+        let own = [world.occluders[1].with_id(world.receivers[0].id)];
+        assert!(!lit(&shot.frame(), &mut renderer), "a ball casts");
+        assert!(
+            lit(&Frame { occluders: &own, ..shot.frame() }, &mut renderer),
+            "a part of the floor does not"
+        );
+        let mut deaf =
+            over_floor(&point([0.5, 3.0, 1.0]), &ball.replace("name", "receives_shadow = true\nname"));
+        deaf.receives[0] = false;
+        let deaf_shot = Shot::new(gl, &deaf);
+        assert!(deaf_shot.masks(&mut renderer, &deaf_shot.frame())[0].iter().all(|&m| m == 255), "NO_SHADOW");
+    });
+}
+
+#[test]
+fn casters_and_receivers_that_are_none_do_nothing() {
+    in_each_api(|gl| {
+        let world = World::one_of_each();
+        let shot = Shot::new(gl, &world);
+        let mut renderer = renderer(gl, "projected");
+        let alone = shot.masks(&mut renderer, &shot.frame());
+        let casters = nonsense();
+        let masks = shot.masks(&mut renderer, &Frame { occluders: &casters, ..shot.frame() });
+        assert!(masks.iter().flatten().all(|&m| m == 255), "nonsense casts nothing");
+        let mut receivers: Vec<Receiver> = [f64::NAN, f64::INFINITY, 0.0]
+            .into_iter()
+            .flat_map(|bad| {
+                let bad = DVec3::splat(bad);
+                let rectangle = |center, half_right, half_forward| {
+                    ReceiverShape::Rectangle(Rectangle { center, half_right, half_forward })
+                };
+                [
+                    rectangle(DVec3::Y, bad, DVec3::Z),
+                    rectangle(DVec3::Y, DVec3::X, bad),
+                    rectangle(bad / bad, DVec3::X, DVec3::Z),
+                    ReceiverShape::Plane(Plane { normal: bad, offset: 0.0 }),
+                    ReceiverShape::Plane(Plane { normal: DVec3::Y, offset: bad.x / bad.x }),
+                ]
+            })
+            .map(|shape| Receiver { shape, id: 1 })
+            .collect();
+        let masks = shot.masks(&mut renderer, &Frame { receivers: &receivers, ..shot.frame() });
+        assert!(masks.iter().flatten().all(|&m| m == 255), "nothing falls on nonsense");
+        receivers.extend(&world.receivers);
+        let mut occluders = nonsense();
+        occluders.extend(&world.occluders);
+        let frame = Frame { receivers: &receivers, occluders: &occluders, ..shot.frame() };
+        assert!(shot.masks(&mut renderer, &frame) == alone, "nor is it in the way of the others");
+        let bad = DVec3::new(0.0, f64::NAN, 1.0);
+        let lights = [Light::point(bad, Vec3::ONE), Light::directional(bad, Vec3::ONE)];
+        let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
+        assert!(masks.iter().flatten().all(|&m| m == 255), "lights that are nowhere take nothing");
+        gl.assert_no_complaint("nonsense");
+    });
+}
+
+/// A parallel view, in a viewport that is not at the corner.
+#[test]
+fn any_camera_will_do() {
+    in_each_api(|gl| {
+        let world = World::one_of_each();
+        let viewport = [13, 9, 150, 110];
+        let mut parallel = DMat4::from_scale(DVec3::new(0.22, 0.3, -0.05));
+        parallel.w_axis.z = -0.5;
+        let cameras = [Camera { view: world.view, projection: parallel }, world.camera(viewport)];
+        for camera in cameras {
+            let shot = Shot::with(gl, &world, camera, viewport, DepthFormat::default());
+            let masks = shot.masks(&mut renderer(gl, "projected"), &shot.frame());
+            let dark = assert_right(&world, &shot, &masks, "a camera");
+            assert!(dark > 300, "{camera:?}: there are shadows: {dark}");
+        }
+    });
+}
+
+/// Each sample of a multisampled surface is a pixel of its own.
+#[test]
+fn every_sample_has_its_own_shadow() {
+    in_each_api(|gl| {
+        let mut renderer = renderer(gl, "projected");
+        if renderer.caps().max_samples < samples::SAMPLES as u32 {
+            return; // a refusal has a test of its own
+        }
+        let world = World::one_of_each();
+        let camera = world.camera(VIEWPORT);
+        let shots: Vec<Shot<'_>> = samples::sample_positions(gl)
+            .into_iter()
+            .map(|at| {
+                let camera = samples::shifted(&camera, at);
+                Shot::with(gl, &world, camera, VIEWPORT, DepthFormat::default())
+            })
+            .collect();
+        let frame = Frame { camera, surface: samples::surface(gl, &shots), ..shots[0].frame() };
+        let textures = Cell::new(None);
+        renderer.masks(&frame, |batch| textures.set(Some(batch.textures))).expect("the frame is right");
+        gl.assert_no_complaint("masks");
+        let textures = textures.take().expect("one batch");
+        for (sample, shot) in shots.iter().enumerate() {
+            let texels = samples::read_sample(gl, textures[0], samples::SIZE, sample as i32);
+            let mask = |light: usize| texels.iter().map(|t| (t[light] * 255.0).round() as u8).collect();
+            let masks: Vec<Vec<u8>> = (0..3).map(mask).collect();
+            let dark = assert_right(&world, shot, &masks, "a sample");
+            assert!(dark > 500, "there are shadows: {dark}");
+        }
+    });
+}
+
+/// How often each value is in a picture that was white.
+fn values(picture: &[[u8; 4]]) -> Vec<(u8, usize)> {
+    let mut counts = [0; 256];
+    picture.iter().for_each(|texel| counts[usize::from(texel[1])] += 1);
+    (0..=255).map(|value| (value, counts[usize::from(value)])).filter(|(_, n)| *n > 0).collect()
+}
+
+/// Half of white, and half of that, in 8 bits, each time rounded either way.
+const HALF: [u8; 2] = [127, 128];
+const QUARTER: [u8; 2] = [63, 64];
+
+/// Paint is blended once a light with the stencil, and once a triangle without it: a ball's front and back make a
+/// quarter of half.
+#[test]
+fn paint_is_blended_twice_without_the_stencil_alone() {
+    in_each_api(|gl| {
+        let balls = object("type = \"sphere\", radius = 0.4", [-0.9, 1.0, 0.0])
+            + &object("type = \"rectangle\", width = 0.8, depth = 0.8", [0.9, 1.2, 0.0])
+                .replace("\"o\"", "\"sheet\"");
+        let world = over_floor(&point([0.0, 5.0, 1.0]), &balls);
+        let shot = Shot::new(gl, &world);
+        let frame = Frame { receivers: &world.receivers[..1], ..shot.frame() };
+        let gamma = Encoding::Gamma(2.2);
+        let once = values(&overlay(gl, &mut renderer(gl, "projected:shade=paper"), &frame, gamma));
+        assert!(once.len() == 2 && HALF.contains(&once[0].0) && once[1].0 == 255, "half and whole: {once:?}");
+        let off = "projected:shade=paper:stencil=off";
+        let twice = values(&overlay(gl, &mut renderer(gl, off), &frame, gamma));
+        let count = |of: &[(u8, usize)], what: [u8; 2]| -> usize {
+            of.iter().filter(|(v, _)| what.contains(v)).map(|(_, n)| n).sum()
+        };
+        assert!(count(&twice, QUARTER) > 100, "the ball's front and back: {twice:?}");
+        assert!(count(&twice, HALF) > 100, "the sheet has one side: {twice:?}");
+        let shadow = once[0].1;
+        let all: usize = twice.iter().filter(|(v, _)| *v < 255).map(|(_, n)| n).sum();
+        assert_eq!(all, shadow, "the same pixels");
+        // Linear pixels are displayed as their root: half of what is displayed is 0.5^2.2 of them.
+        let linear =
+            values(&overlay(gl, &mut renderer(gl, "projected:shade=paper"), &frame, Encoding::Linear));
+        let expected = (0.5f32.powf(2.2) * 255.0).round() as u8;
+        assert!(linear.len() == 2 && linear[0].0.abs_diff(expected) <= 1, "{linear:?}, not {expected}");
+    });
+}
+
+/// Two lights darken twice where both are blocked; six lights take two rounds.
+#[test]
+fn paint_is_blended_once_for_each_light() {
+    in_each_api(|gl| {
+        let ball = object("type = \"sphere\", radius = 0.4", [0.0, 1.0, 0.0]);
+        let world = over_floor(&point([0.0, 5.0, 1.0]), &ball);
+        let shot = Shot::new(gl, &world);
+        for count in [2, 6] {
+            let lights = vec![world.lights[0]; count];
+            let frame = Frame { lights: &lights, ..shot.frame() };
+            let mut renderer = renderer(gl, "projected:shade=paper");
+            let found = values(&overlay(gl, &mut renderer, &frame, Encoding::Gamma(2.2)));
+            let expected = 255.0 * 0.5f64.powi(count as i32);
+            // Each rounding to 8 bits is off by half a step, which the next ones halve.
+            let off = (f64::from(found[0].0) - expected).abs();
+            assert!(found.len() == 2 && off <= 1.0, "{count} lights: {found:?}, not {expected}");
+        }
+    });
+}
+
+/// Without the stencil a shadow goes on over the edge of its receiver, into the void and onto what is behind.
+#[test]
+fn shadows_overrun_their_receivers_without_the_stencil() {
+    in_each_api(|gl| {
+        let camera = "camera = { eye = [1.0, 3.5, 7.0], target = [0.0, 0.6, 0.0] }\n";
+        let table = object("type = \"rectangle\", width = 1.6, depth = 1.2", [0.0, 0.0, 0.0])
+            .replace("\"o\"", "\"table\"");
+        let ball = object("type = \"sphere\", radius = 0.5", [0.7, 1.5, 0.0]);
+        let world = World::parse(&[camera, &point([0.9, 4.5, -0.5]), &table, &ball].concat());
+        let shot = Shot::new(gl, &world);
+        let painted = |technique: &str| -> Vec<bool> {
+            let picture = overlay(gl, &mut renderer(gl, technique), &shot.frame(), Encoding::Linear);
+            picture.iter().map(|texel| texel[0] < 255).collect()
+        };
+        let [on, off] = ["projected:shade=paper", "projected:shade=paper:stencil=off"].map(painted);
+        let seen = |i: &usize, what: Option<u32>| shot.seen[*i].map(|s| s.primitive) == what;
+        let count = |of: &[bool], what| (0..of.len()).filter(|i| of[*i] && seen(i, what)).count();
+        assert!(count(&on, Some(0)) > 50, "a shadow on the table: {}", count(&on, Some(0)));
+        assert_eq!(count(&on, Some(0)), count(&off, Some(0)), "the same shadow on the table");
+        assert_eq!(count(&on, None) + count(&on, Some(1)), 0, "and nowhere else");
+        assert!(count(&off, None) > 50, "in the void");
+        assert_eq!(count(&off, Some(1)), 0, "but not over what is in front");
+    });
+}
+
+#[test]
+fn what_it_cannot_do_is_refused() {
+    in_each_api(|gl| {
+        let world = World::one_of_each();
+        let shot = Shot::new(gl, &world);
+        let refused = |technique: &str, frame: &Frame<'_>| match renderer(gl, technique).masks(frame, |_| {})
+        {
+            Err(Error::Refused { technique: "projected", refusal }) => refusal,
+            other => panic!("{technique}: {other:?}"),
+        };
+        let frame = shot.frame();
+        let nowhere = refused("projected", &Frame { receivers: &[], ..frame });
+        assert!(nowhere.part == Part::Receivers && nowhere.reason.contains("none to fall on"), "{nowhere:?}");
+        let area = world.lights[0].with_area(Area::Sphere { radius: 0.1 });
+        let lights = [world.lights[1], area];
+        assert_eq!(refused("projected", &Frame { lights: &lights, ..frame }).part, Part::Light(1), "an area");
+        let options = refused("projected:stencil=off", &frame);
+        assert!(options.part == Part::Options && options.reason.contains("shade=paper"), "{options:?}");
+        renderer(gl, "projected:shade=paper:stencil=off").masks(&frame, |_| {}).expect("for teaching");
+    });
+}
+
+#[test]
+fn counts_are_of_casters_receivers_and_triangles() {
+    in_each_api(|gl| {
+        let text = ONE_OF_EACH.replace("casts_shadow = true", "");
+        let world = World::parse(&text);
+        let shot = Shot::new(gl, &world);
+        let mut renderer = renderer(gl, "projected");
+        // The triangle alone, over a floor that two lights and a spot shine on.
+        let triangle = [*world.occluders.last().expect("a triangle")];
+        let frame = Frame { occluders: &triangle, receivers: &world.receivers[..1], ..shot.frame() };
+        renderer.masks(&frame, |_| {}).expect("the frame is right");
+        let stats = renderer.stats();
+        assert_eq!(stats.pairs, 3, "three lights, a caster and a receiver");
+        assert!((1..=3).contains(&stats.polygons), "one triangle for each light in sight: {stats:?}");
+        renderer.masks(&Frame { receivers: &world.receivers, ..frame }, |_| {}).expect("the frame is right");
+        assert_eq!(renderer.stats().pairs, 6, "and two receivers");
+    });
+}
