@@ -1,10 +1,13 @@
 //! The technique `projected`: what falls on its receivers, and what must not.
 
 use crate::context::{Gl, in_each_api};
+use crate::leaks::live;
 use crate::lights::{many_lights, overlay};
 use crate::occluders::nonsense;
+use crate::odd_host::OddHost;
 use crate::samples;
 use crate::shot::{Shot, VIEWPORT};
+use crate::snapshot::{assert_same, snapshot};
 use crate::world::{ONE_OF_EACH, World};
 use antumbra_gl::technique::Part;
 use antumbra_gl::{
@@ -453,6 +456,42 @@ fn shadows_overrun_their_receivers_without_the_stencil() {
         assert_eq!(count(&on, None) + count(&on, Some(1)), 0, "and nowhere else");
         assert!(count(&off, None) > 50, "in the void");
         assert_eq!(count(&off, Some(1)), 0, "but not over what is in front");
+    });
+}
+
+/// State, errors, objects and allocations, however it draws.
+#[test]
+fn every_way_of_drawing_leaves_no_trace() {
+    in_each_api(|gl| {
+        let world = many_lights(6);
+        let shot = Shot::new(gl, &world);
+        for technique in ["projected", "projected:shade=paper", "projected:shade=paper:stencil=off"] {
+            let host = OddHost::new(gl, samples::SIZE);
+            let (before, objects) = (snapshot(gl), live(&gl.gl));
+            let mut renderer = renderer(gl, technique);
+            let mut draw = || {
+                renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+                assert_same(&before, &snapshot(gl), technique);
+                let inside = || assert_same(&before, &snapshot(gl), technique);
+                renderer.masks(&shot.frame(), |_| inside()).expect("the frame is right");
+                assert_same(&before, &snapshot(gl), technique);
+                gl.assert_no_complaint(technique);
+                let frame = shot.frame();
+                let counted = allocation_counter::measure(|| {
+                    renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
+                    renderer.masks(&frame, |_| {}).expect("the frame is right");
+                });
+                (counted.count_total, live(&gl.gl))
+            };
+            let first = draw();
+            assert!(
+                draw() == (0, first.1) && first.1 != objects,
+                "{technique}: a steady frame makes nothing"
+            );
+            drop(renderer);
+            assert_eq!(live(&gl.gl), objects, "{technique}: objects outlive the renderer");
+            host.calm_down(gl);
+        }
     });
 }
 
