@@ -1,16 +1,17 @@
-// What of a flattened caster is shadow: the part between the plane and the light.
+// What of a flattened caster is shadow: the part over the plane. What is beyond the light has a negative weight
+// there, and OpenGL has clipped it, or lands behind the eye, where no marked pixel sees it.
 
 uniform vec4 u_shade;
 
 #ifndef MULTISAMPLE
-in vec2 v_cut;
+in float v_height;
 #endif
 
 layout(location = 0) out vec4 o_shade;
 
 void main() {
 #ifndef MULTISAMPLE
-    if (!(min(v_cut.x, v_cut.y) > 0.0)) {
+    if (!(v_height > 0.0)) {
         discard;
     }
 #endif

@@ -83,7 +83,7 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
         name: "projected caster",
         vertex: caster_stage!("caster.vert.glsl"),
         fragment: caster_stage!("caster.frag.glsl"),
-        uniforms: &["u_to_clip", "u_cut", "u_shade"],
+        uniforms: &["u_to_clip", "u_height", "u_shade"],
     },
     screen_program!("projected paint", "paint.frag.glsl", &["u_painted", "u_painted_offset", "u_exponent"]),
 ];
@@ -212,29 +212,28 @@ impl State {
     /// As for [`Self::draw_group`].
     unsafe fn cast(&self, pass: &Pass<'_>, draw: &Draw, shade: &[f32; 4]) {
         let (gl, program) = (pass.gl, &pass.programs[CASTER]);
-        let [to_clip_at, cut_at, shade_at] = &program.own[..] else { unreachable!("one location a name") };
+        let [to_clip_at, height_at, shade_at] = &program.own[..] else { unreachable!("one location a name") };
         let caster = &self.plan.posed[draw.caster];
         // SAFETY: the caller's; the elements are those of the vertex array.
         unsafe {
             gl.use_program(Some(program.raw));
             gl.uniform_matrix_4_f32_slice(to_clip_at.as_ref(), false, &draw.to_clip);
-            gl.uniform_4_f32_slice(cut_at.as_ref(), &draw.cut);
+            gl.uniform_4_f32_slice(height_at.as_ref(), &draw.height);
             gl.uniform_4_f32_slice(shade_at.as_ref(), shade);
             gl.bind_vertex_array(Some(caster.vertex_array));
             gl.draw_elements(glow::TRIANGLES, caster.count, glow::UNSIGNED_INT, 0);
         }
     }
 
-    /// Switches the clip distances that casters of multisampled surfaces write; other programs write none.
+    /// Switches the clip distance that casters write for multisampled surfaces; other programs write none.
     ///
     /// # Safety
     /// As for [`Self::draw_group`].
     unsafe fn clip(&self, pass: &Pass<'_>, on: bool) {
+        let (gl, distance) = (pass.gl, glow::CLIP_DISTANCE0);
         if pass.frame.surface.samples > 1 {
-            for distance in [glow::CLIP_DISTANCE0, glow::CLIP_DISTANCE1] {
-                // SAFETY: multisampled surfaces are of desktop OpenGL, which has clip distances.
-                unsafe { if on { pass.gl.enable(distance) } else { pass.gl.disable(distance) } }
-            }
+            // SAFETY: multisampled surfaces are of desktop OpenGL, which has clip distances.
+            unsafe { if on { gl.enable(distance) } else { gl.disable(distance) } }
         }
     }
 

@@ -51,8 +51,8 @@ pub(super) struct Draw {
     pub(super) caster: usize,
     /// From the mesh to clip space.
     pub(super) to_clip: [f32; 16],
-    /// Height and weight, from the mesh's space: see caster.vert.glsl.
-    pub(super) cut: [f32; 8],
+    /// Height over the receiver's plane, from the mesh's space.
+    pub(super) height: [f32; 4],
 }
 
 /// The draws of a batch of lights; keeps its memory from one to the next.
@@ -155,13 +155,12 @@ impl Plan {
                     self.counts.1 += posed.count as usize / 3;
                     let flat_model = flatten * posed.model;
                     let plane = placed.plane.normal.extend(-placed.plane.offset);
-                    let rows = [posed.model.transpose() * plane, flat_model.row(3)].map(|r| r.as_vec4());
                     self.draws.push(Draw {
                         receiver,
                         light,
                         caster,
                         to_clip: (to_clip * flat_model).as_mat4().to_cols_array(),
-                        cut: bytemuck::cast(rows),
+                        height: (posed.model.transpose() * plane).as_vec4().to_array(),
                     });
                 }
             }
