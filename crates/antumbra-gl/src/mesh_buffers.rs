@@ -111,9 +111,10 @@ impl MeshCache {
     ) -> Result<&MeshBuffers, Error> {
         let buffers = match self.meshes.entry(mesh.id()) {
             std::collections::hash_map::Entry::Occupied(found) => found.into_mut(),
-            // SAFETY: the caller's.
             std::collections::hash_map::Entry::Vacant(empty) => {
-                empty.insert(unsafe { MeshBuffers::new(gl, mesh)? })
+                // SAFETY: the caller's.
+                let made = unsafe { MeshBuffers::new(gl, mesh)? };
+                empty.insert(made)
             }
         };
         buffers.unused = 0;

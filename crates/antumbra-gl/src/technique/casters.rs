@@ -58,22 +58,14 @@ pub(crate) fn planes<'a>(pass: &Pass<'a>) -> impl Iterator<Item = (Plane, u32)> 
 
 fn of_occluder(occluder: &Occluder) -> Option<Caster<'static>> {
     let unit: &'static UnitShapes = &UNIT;
-    let size = match occluder.shape {
-        Shape::Sphere(s) => s.radius,
-        Shape::Disc(s) => s.radius,
-        Shape::Cone(s) => s.radius.min(s.height),
-        _ => f64::INFINITY,
-    };
-    if !(size > 0.0) {
-        return None; // a negative one would make a model all the same
-    }
     let (mesh, model) = match occluder.shape {
-        Shape::Plane(_) => return None,
-        Shape::Sphere(s) => {
+        Shape::Sphere(s) if s.radius > 0.0 => {
             (&unit.sphere, DMat4::from_translation(s.center) * DMat4::from_scale(DVec3::splat(s.radius)))
         }
-        Shape::Disc(s) => (&unit.disc, standing(s.center, s.normal, DVec3::splat(s.radius))?),
-        Shape::Cone(s) => {
+        Shape::Disc(s) if s.radius > 0.0 => {
+            (&unit.disc, standing(s.center, s.normal, DVec3::splat(s.radius))?)
+        }
+        Shape::Cone(s) if s.radius > 0.0 && s.height > 0.0 => {
             let middle = s.base_center + s.axis * (0.5 * s.height);
             (&unit.cone, standing(middle, s.axis, DVec3::new(s.radius, s.height, s.radius))?)
         }
@@ -87,6 +79,7 @@ fn of_occluder(occluder: &Occluder) -> Option<Caster<'static>> {
             let normal = (c - a).cross(b - a).normalize_or_zero();
             (&unit.triangle, DMat4::from_mat3_translation(DMat3::from_cols(b - a, normal, c - a), a))
         }
+        Shape::Plane(_) | Shape::Sphere(_) | Shape::Disc(_) | Shape::Cone(_) => return None,
     };
     // A size of zero, an infinity or a NaN has no inverse.
     let casts = model.is_finite() && model.determinant() != 0.0;

@@ -37,15 +37,15 @@ fn assert_right(world: &World, shot: &Shot<'_>, masks: &[Vec<u8>], what: &str) -
     };
     let mut dark = 0;
     for (light, mask) in masks.iter().enumerate() {
-        for i in 0..mask.len() {
+        for (i, &value) in mask.iter().enumerate() {
             if !on_receiver(i) {
-                assert_eq!(mask[i], 255, "{what}, light {light}, pixel {i}: no receiver, no shadow");
+                assert_eq!(value, 255, "{what}, light {light}, pixel {i}: no receiver, no shadow");
                 continue;
             }
             let (visibility, irradiance) = truth.lights[light][i];
             if truth.sure[i] && irradiance != Vec3::ZERO {
-                let right = mask[i] == if visibility > 0.5 { 255 } else { 0 };
-                assert!(right, "{what}, light {light}, pixel {i}: {} for {visibility}", mask[i]);
+                let right = value == if visibility > 0.5 { 255 } else { 0 };
+                assert!(right, "{what}, light {light}, pixel {i}: {value} for {visibility}");
                 dark += usize::from(visibility < 0.5);
             }
         }

@@ -142,11 +142,11 @@ impl Plan {
                     if own || posed.hides_its_own_shadow(l, eye) || !posed.is_reached(source) {
                         continue;
                     }
-                    let reach = posed.reach(&placed.plane, &placed.sides, &flatten);
-                    let polygon = match reach {
+                    let shadow = posed.corners.map(|c| flatten * c);
+                    let polygon = match posed.reach(&placed.plane, &placed.sides, &shadow) {
                         Reach::Nothing => continue,
                         Reach::Far => receivers.polygon(placed),
-                        Reach::Within(shadow) => proxy.bound_hull(shadow.map(|p| to_clip * p), [], view),
+                        Reach::Near => proxy.bound_hull(shadow.map(|s| to_clip * (s / s.w)), [], view),
                     };
                     if polygon.len() < 3 {
                         continue;
@@ -174,8 +174,8 @@ enum Reach {
     Nothing,
     /// Perhaps as far as one can see.
     Far,
-    /// Inside the convex hull of these points of weight 1, world space.
-    Within([DVec4; 8]),
+    /// Between the shadows of its box's corners.
+    Near,
 }
 
 impl Posed {
@@ -198,13 +198,13 @@ impl Posed {
         light.place.may_reach(center, radius)
     }
 
-    fn reach(&self, plane: &Plane, sides: &[DVec4; 2], flatten: &DMat4) -> Reach {
+    /// `shadow`: the shadows of the corners of its box.
+    fn reach(&self, plane: &Plane, sides: &[DVec4; 2], shadow: &[DVec4; 8]) -> Reach {
         let heights = self.corners.map(|c| {
             let h = height(plane, c);
             let rounding = ROUNDING * (c.truncate().length() + plane.offset.abs() * c.w);
             if h.abs() <= rounding { 0.0 } else { h }
         });
-        let shadow = self.corners.map(|c| *flatten * c);
         // In the plane or behind it; level with the light or beyond.
         if heights.iter().all(|&h| h <= 0.0) || shadow.iter().all(|s| s.w <= 0.0) {
             return Reach::Nothing;
@@ -217,6 +217,6 @@ impl Posed {
         if sides.iter().any(|side| beside(side, 1.0) || beside(side, -1.0)) {
             return Reach::Nothing;
         }
-        Reach::Within(shadow.map(|s| s / s.w))
+        Reach::Near
     }
 }
