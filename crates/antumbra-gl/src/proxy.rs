@@ -57,6 +57,20 @@ impl ProxyBuilder {
             Some(end) => self.near.extend(self.rays.iter().map(|&(p, d)| clip(p + d * crossing(end, p, d)))),
             None => self.away.extend(self.rays.iter().map(|&(_, d)| view.projection * d.extend(0.0))),
         }
+        self.bound_ends(view, size)
+    }
+
+    /// The same for a flat convex shape of these corners (view space) and nothing behind it.
+    pub(crate) fn bound_flat(&mut self, corners_vs: &[DVec3], view: &View) -> &[DVec2] {
+        self.hull.clear();
+        self.near.clear();
+        self.away.clear();
+        self.near.extend(corners_vs.iter().map(|p| view.projection * p.extend(1.0)));
+        self.bound_ends(view, view.size())
+    }
+
+    /// The polygon of what is in `near` and `away`.
+    fn bound_ends(&mut self, view: &View, size: DVec2) -> &[DVec2] {
         if self.outside_one_side(size) {
             return &self.hull;
         }

@@ -121,6 +121,12 @@ fn refusals_have_reasons() {
     for shape in [plane.into(), rectangle.into()] {
         assert_eq!(cast(&shape, &light), Err(Refusal::Shape), "{shape:?}");
     }
+    // In the plane they are the receiver itself.
+    let own = Plane::through(DVec3::X, -DVec3::Y);
+    let part = Rectangle { center: DVec3::X, half_right: DVec3::X, half_forward: DVec3::Z };
+    for shape in [own.into(), part.into()] {
+        assert_eq!(cast(&shape, &light), Ok(CompositeShadow::default()), "{shape:?}");
+    }
     for shape in shapes().iter().skip(1) {
         let through = moved(shape, DVec3::Y * -1.5);
         for y in [6.0, -6.0, 0.0, 0.2] {

@@ -181,7 +181,6 @@ macro_rules! options {
     };
 }
 
-#[cfg_attr(not(test), expect(unused_imports, reason = "until a technique has a choice"))]
 pub(crate) use choices;
 pub(crate) use options;
 

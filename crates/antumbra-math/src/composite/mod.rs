@@ -49,8 +49,8 @@
 //! - A light that is not above all of the object by a billionth of its own height, whether beside it,
 //!   below it, inside it or in the plane: no shadow. One that sinks loses its shadow; none turns over.
 //! - An object on the other side of the plane than the light, a disc or a triangle that lies in the
-//!   plane ("no shadow appears if the object is on the surface"), a triangle whose shadow is a line,
-//!   shapes without extent, and anything with an infinity or a NaN: no shadow.
+//!   plane ("no shadow appears if the object is on the surface"), the plane itself and rectangles in it,
+//!   a triangle whose shadow is a line, shapes without extent, and anything with an infinity or a NaN: no shadow.
 //! - A shape that passes through the plane, a tilted disc or cone, and shapes that the papers do not
 //!   have: a [`Refusal`].
 //! - A directional light: the equations' limit, and k = 1.
@@ -58,11 +58,13 @@
 //!
 //! Nothing panics, and every number that comes out is finite.
 
+mod coverage;
 mod equations;
 mod frame;
 mod refusal;
 mod shadow;
 
+pub use coverage::{PlacedPart, part_coverage};
 pub use equations::{PaperLight, shade, shadow_apex_x, shadow_base, shadow_radius, shadow_x};
 pub use frame::PaperFrame;
 pub use refusal::{Refusal, refusal};

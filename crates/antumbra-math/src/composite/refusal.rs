@@ -17,7 +17,8 @@ const RESTING: f64 = 1e-6;
 /// Why the papers' method cannot draw a shape's shadow on a plane, wherever the light is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Refusal {
-    /// The papers have no equations for planes and rectangles.
+    /// The papers have no equations for planes and rectangles. (One that lies in the plane is the
+    /// receiver itself, and casts nothing on it.)
     Shape,
     /// A disc that is not parallel to the plane.
     TiltedDisc,
@@ -53,7 +54,17 @@ pub fn refusal(shape: &Shape, frame: &PlaneFrame) -> Option<Refusal> {
     }
     let is_tilted = |axis: DVec3| axis.cross(frame.normal).length() > PARALLEL * axis.length();
     match shape {
-        Shape::Plane(_) | Shape::Rectangle(_) => Some(Refusal::Shape),
+        Shape::Plane(plane) => {
+            let nearest = plane.normal * plane.offset;
+            let lies = !is_tilted(plane.normal) && frame.height(nearest).abs() <= slack(frame, nearest, 0.0);
+            (!lies).then_some(Refusal::Shape)
+        }
+        Shape::Rectangle(rectangle) => {
+            let (center, radius) = shape.bounding_sphere();
+            let slack = slack(frame, center, radius);
+            let lies = rectangle.corners().iter().all(|&corner| frame.height(corner).abs() <= slack);
+            (!lies).then_some(Refusal::Shape)
+        }
         Shape::Disc(disc) if is_tilted(disc.normal) => Some(Refusal::TiltedDisc),
         Shape::Cone(cone) if is_tilted(cone.axis) => Some(Refusal::TiltedCone),
         _ => {

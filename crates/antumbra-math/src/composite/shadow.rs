@@ -177,7 +177,8 @@ fn has_extent(shape: &Shape) -> bool {
         Shape::Disc(disc) => disc.radius > 0.0 && disc.normal != DVec3::ZERO,
         Shape::Sphere(sphere) => sphere.radius > 0.0,
         Shape::Cone(cone) => cone.radius > 0.0 && cone.height >= 0.0 && cone.axis != DVec3::ZERO,
-        _ => true,
+        Shape::Triangle(_) => true,
+        Shape::Plane(_) | Shape::Rectangle(_) => false,
     }
 }
 
