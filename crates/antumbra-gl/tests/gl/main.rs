@@ -13,6 +13,7 @@ mod world;
 
 mod bad_frames;
 mod cameras;
+mod composite;
 mod depth_only;
 mod leaks;
 mod lights;

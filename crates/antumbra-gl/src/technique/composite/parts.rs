@@ -115,7 +115,7 @@ impl PartBuilder {
         if let Drawn::Shade(_) = drawn {
             // White is the papers' unshaded ground.
             self.of_light.retain(|part| part.shade < 1.0);
-            self.of_light.sort_by(|a, b| b.shade.total_cmp(&a.shade));
+            self.of_light.sort_unstable_by(|a, b| b.shade.total_cmp(&a.shade));
         }
         for part in &self.of_light {
             let Some(placed) = PlacedPart::new(&part.shape, &ground.frame_vs) else { continue };
