@@ -79,7 +79,7 @@ fn huge_discs_keep_their_edges() {
     let mut random = Random(73);
     for _ in 0..2000 {
         let radius = random.decades(0.0, 9.0);
-        let away = DVec2::from_angle(random.within(0.0, 6.28));
+        let away = DVec2::from_angle(random.within(0.0, std::f64::consts::TAU));
         let edge = away * random.within(-5.0, 5.0);
         let disc = PartShape::Disc { center: edge - away * radius, radius };
         let placed = PlacedPart::new(&disc, &frame).expect("a disc").to_f32();
