@@ -7,6 +7,8 @@
 
 use core::f64::consts::PI;
 
+use rayon::prelude::*;
+
 /// Pixels a degree of the viewer's visual field: a screen 0.7 m wide with 3840 pixels across, 0.7 m away, as the
 /// paper has it.
 pub const PIXELS_PER_DEGREE: f64 = 67.020_643;
@@ -71,7 +73,7 @@ pub fn flip(
         let difference = color.powf(1.0 - feature) as f32;
         difference
     };
-    (0..test.lab.len()).map(difference).collect()
+    (0..test.lab.len()).into_par_iter().map(difference).collect()
 }
 
 /// The mean of a map of differences; 0 for no pixels.
@@ -99,6 +101,7 @@ impl Seen {
             core::array::from_fn(|channel| opponent.iter().map(|v| v[channel]).collect());
         let blurred = [blur(&y, 0, size, density), blur(&rg, 1, size, density), blur(&by, 2, size, density)];
         let lab = (0..y.len())
+            .into_par_iter()
             .map(|i| {
                 let rgb = multiply(&TO_RGB, from_opponent([blurred[0][i], blurred[1][i], blurred[2][i]]));
                 hunt_lab(multiply(&TO_XYZ, rgb.map(|v| v.clamp(0.0, 1.0))))
@@ -177,22 +180,20 @@ fn convolve(channel: &[f64], across: &[f64], down: &[f64], size: Size) -> Vec<f6
     let Size { width, height } = size;
     let radius = across.len() / 2;
     let mut rows = vec![0.0; channel.len()];
-    let mut padded = vec![0.0; width + 2 * radius];
-    for (row, out) in channel.chunks_exact(width).zip(rows.chunks_exact_mut(width)) {
-        for (i, value) in padded.iter_mut().enumerate() {
-            *value = row[i.saturating_sub(radius).min(width - 1)];
-        }
+    channel.par_chunks_exact(width).zip(rows.par_chunks_exact_mut(width)).for_each(|(row, out)| {
+        let at = |i: usize| row[i.saturating_sub(radius).min(width - 1)];
+        let padded: Vec<f64> = (0..width + 2 * radius).map(at).collect();
         for (x, out) in out.iter_mut().enumerate() {
             *out = padded[x..].iter().zip(across).map(|(v, k)| v * k).sum();
         }
-    }
+    });
     let mut result = vec![0.0; channel.len()];
-    for (y, out) in result.chunks_exact_mut(width).enumerate() {
+    result.par_chunks_exact_mut(width).enumerate().for_each(|(y, out)| {
         for (i, k) in down.iter().enumerate() {
             let from = (y + i).saturating_sub(radius).min(height - 1) * width;
             out.iter_mut().zip(&rows[from..from + width]).for_each(|(out, v)| *out += v * k);
         }
-    }
+    });
     result
 }
 
