@@ -24,6 +24,8 @@ pub(crate) struct Request<'a> {
     pub(crate) time: f64,
     /// Whether the visibility of each light is wanted too.
     pub(crate) visibility: bool,
+    /// Whether the picture has shadows, where OpenGL draws it.
+    pub(crate) shadows: bool,
 }
 
 /// What was drawn.
@@ -85,13 +87,22 @@ impl OpenGl {
         Driver::from(&self.context.info())
     }
 
-    /// Draws a scene with the technique `analytic` and `msaa` samples a pixel (4, or what the driver has, where it is
-    /// `None`).
+    /// The context.
+    pub(crate) fn context(&self) -> &HeadlessContext {
+        &self.context
+    }
+
+    /// Draws a scene with `technique` and `msaa` samples a pixel (4, or what the driver has, where it is `None`).
     ///
     /// # Errors
     /// [`CliError::Usage`] where the driver has fewer samples than asked for; [`CliError::OpenGl`] for what the
     /// technique or the driver cannot do.
-    pub(crate) fn draw(&mut self, request: &Request, msaa: Option<u32>) -> Result<Drawing, CliError> {
+    pub(crate) fn draw(
+        &mut self,
+        request: &Request,
+        technique: &antumbra::Technique,
+        msaa: Option<u32>,
+    ) -> Result<Drawing, CliError> {
         let most = self.stage.shadows().caps().max_samples.max(1);
         let msaa = msaa.unwrap_or(DEFAULT_MSAA.min(most));
         if msaa > most {
@@ -105,8 +116,8 @@ impl OpenGl {
             height: request.size.height,
             msaa,
             visibility: request.visibility,
-            shadows: true,
-            technique: antumbra::Technique::default(),
+            shadows: request.shadows,
+            technique: *technique,
         };
         let start = Instant::now();
         let rendered = self.stage.render(request.scene, &options).map_err(CliError::OpenGl)?;

@@ -46,6 +46,16 @@ fn opengl_hint(error: &HostError) -> &'static str {
 }
 
 impl CliError {
+    /// What ends a command that can do nothing without OpenGL.
+    pub(crate) fn without_opengl(error: HostError) -> Self {
+        match error {
+            HostError::NoOpenGl(why) => {
+                Self::Usage(format!("no OpenGL: {why}; `antumbra info` says how to get one"))
+            }
+            error => Self::OpenGl(error),
+        }
+    }
+
     /// A file that cannot be written.
     pub(crate) fn output(path: &Path, what: impl Into<String>) -> Self {
         Self::Output { path: path.to_owned(), what: what.into() }

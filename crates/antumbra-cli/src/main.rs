@@ -14,6 +14,7 @@ mod output;
 mod progress;
 mod report;
 mod technique;
+mod timing;
 
 use std::process::ExitCode;
 

@@ -13,8 +13,8 @@ use crate::error::{CliError, OneLine};
 pub(crate) struct Report {
     /// The scene file.
     pub(crate) scene: String,
-    /// Name of the technique.
-    pub(crate) technique: &'static str,
+    /// The technique, with the options that were set.
+    pub(crate) technique: String,
     /// `gl` or `cpu`.
     pub(crate) backend: &'static str,
     /// Pixels across.

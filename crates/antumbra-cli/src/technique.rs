@@ -1,46 +1,106 @@
-//! The ways to find shadows, by name.
+//! The ways to find shadows: those of the library, which draw with OpenGL, and the ray tracer.
+
+use std::fmt;
 
 use antumbra_scene::Scene;
 
-/// A technique that exists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The name of the ray tracer.
+const RAYTRACED: &str = "raytraced";
+
+/// A technique with its options.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Technique {
-    /// Exact closed forms, with OpenGL.
-    Analytic,
+    /// One of the library's, with OpenGL.
+    Gl(antumbra::Technique),
     /// The ray tracer, on the CPU.
     Raytraced,
 }
 
 impl Technique {
-    /// Every technique.
-    pub(crate) const ALL: [Self; 2] = [Self::Analytic, Self::Raytraced];
+    /// Every technique, with the options it has by default; the ray tracer last.
+    pub(crate) fn all() -> Vec<Self> {
+        antumbra::Technique::all().map(Self::Gl).chain([Self::Raytraced]).collect()
+    }
 
-    /// Its name on the command line.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Analytic => "analytic",
-            Self::Raytraced => "raytraced",
+    /// A name, then options as `:key=value`.
+    ///
+    /// # Errors
+    /// What is wrong with it, and which names there are.
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        match text.split(':').next() {
+            Some(RAYTRACED) if text == RAYTRACED => Ok(Self::Raytraced),
+            Some(RAYTRACED) => Err(format!("technique {RAYTRACED} has no options; write {RAYTRACED} alone")),
+            Some(name) if !antumbra::Technique::NAMES.contains(&name) => Err(format!(
+                "there is no technique `{name}`; the techniques are {} and {RAYTRACED}",
+                antumbra::Technique::NAMES.join(", ")
+            )),
+            _ => antumbra::Technique::parse(text).map(Self::Gl),
         }
     }
 
-    /// The technique of that name.
-    pub(crate) fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|technique| technique.name() == name)
+    /// What `--help` says of them in one line.
+    pub(crate) fn help() -> String {
+        format!(
+            "How shadows are found: {} or {RAYTRACED}, with options",
+            antumbra::Technique::NAMES.join(", ")
+        )
     }
 
-    /// The names of all.
-    pub(crate) fn names() -> Vec<&'static str> {
-        Self::ALL.map(Self::name).to_vec()
+    /// What `--help` says of them, a line each.
+    pub(crate) fn long_help() -> String {
+        let all = Self::all();
+        let wide = all.iter().map(|technique| technique.name().len()).max().unwrap_or(0);
+        let lines =
+            all.iter().map(|technique| format!("  {:wide$}  {}", technique.name(), technique.summary()));
+        format!("{}\n\n{}", Self::help(), lines.collect::<Vec<_>>().join("\n"))
     }
 
-    /// Why it cannot do a scene, with the object and a technique that can; `None` where it can.
-    pub(crate) fn objection(self, scene: &Scene) -> Option<String> {
+    /// The same technique with one of its options set.
+    ///
+    /// # Errors
+    /// That it has no such option.
+    pub(crate) fn with_option(mut self, key: &str, value: &str) -> Result<Self, String> {
+        match &mut self {
+            Self::Gl(technique) => {
+                technique.set(key, value).map_err(|what| format!("technique {}: {what}", technique.name()))?
+            }
+            Self::Raytraced => return Err(format!("technique {RAYTRACED} has no options")),
+        }
+        Ok(self)
+    }
+
+    /// Its name, without options.
+    pub(crate) fn name(&self) -> &'static str {
         match self {
-            Self::Analytic => {
-                let technique = antumbra::Technique::default();
-                antumbra_host::objection(scene, &scene.moment(0.0), &technique).map(|error| error.to_string())
+            Self::Gl(technique) => technique.name(),
+            Self::Raytraced => RAYTRACED,
+        }
+    }
+
+    /// What it does, in one sentence.
+    pub(crate) fn summary(&self) -> &'static str {
+        match self {
+            Self::Gl(technique) => technique.about().summary,
+            Self::Raytraced => "the reference: every ray traced on the CPU in double precision",
+        }
+    }
+
+    /// Why it cannot do a scene at a moment, with the object and a technique that can; `None` where it can.
+    pub(crate) fn objection(&self, scene: &Scene, time: f64) -> Option<String> {
+        match self {
+            Self::Gl(technique) => {
+                antumbra_host::objection(scene, &scene.moment(time), technique).map(|error| error.to_string())
             }
             Self::Raytraced => None,
+        }
+    }
+}
+
+impl fmt::Display for Technique {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Gl(technique) => technique.fmt(f),
+            Self::Raytraced => f.write_str(RAYTRACED),
         }
     }
 }

@@ -14,7 +14,11 @@ fn a_summary() {
     {
         assert!(text.contains(part), "`{part}` is in: {text}");
     }
-    assert!(text.contains("analytic, raytraced"), "both techniques can do it: {text}");
+    let techniques = text.lines().find(|line| line.starts_with("  techniques")).unwrap_or_default();
+    assert!(
+        techniques.contains("analytic") && techniques.ends_with(", raytraced"),
+        "these can do it: {text}"
+    );
 }
 
 #[test]
@@ -29,9 +33,15 @@ fn a_summary_in_json() {
     assert_eq!((&first["scene"], &first["valid"]), (&"scene.toml".into(), &true.into()), "the first file");
     assert_eq!(first["lights"][1]["kind"], "directional", "the second kind of light");
     assert_eq!(first["lights"][1]["count"], 1, "one of it");
-    assert_eq!(first["techniques"], serde_json::json!(["analytic", "raytraced"]), "both can");
+    let able = |scene: &serde_json::Value, name: &str| {
+        scene["techniques"].as_array().is_some_and(|names| names.iter().any(|able| able == name))
+    };
+    assert!(able(first, "analytic") && able(first, "raytraced"), "these can: {first}");
     let second = &report["scenes"][1];
-    assert_eq!(second["techniques"], serde_json::json!(["raytraced"]), "a torus is traced only, so far");
+    assert!(
+        !able(second, "analytic") && able(second, "raytraced"),
+        "a torus has no closed form here: {second}"
+    );
     assert!(
         second["limits"][0].as_str().is_some_and(|why| why.contains("ball")),
         "names the object: {second}"

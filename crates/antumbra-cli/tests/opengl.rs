@@ -150,6 +150,39 @@ fn what_the_driver_or_the_technique_cannot_do() {
 }
 
 #[test]
+fn techniques_with_options() {
+    let place = Place::new();
+    if !opengl(&place) {
+        return;
+    }
+    let scene =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/primitives-light-above.toml");
+    place.write("above.toml", &std::fs::read_to_string(scene).expect("a gallery scene"));
+    let render = |file: &str, extra: &[&str]| {
+        let arguments = ["render", "above.toml", "-o", file, "--size", "96x54", "--json"];
+        let output = place.run([arguments.as_slice(), extra].concat());
+        assert_success(&output);
+        let technique = json(&output)["technique"].as_str().expect("a name").to_owned();
+        (technique, Png::read(&place.file(file)).rgb())
+    };
+    let (name, painted) = render("a.png", &["--technique", "composite"]);
+    assert_eq!(name, "composite", "its default shade goes without saying");
+    assert_eq!(
+        render("b.png", &["--technique", "composite", "--shade", "paper"]).1,
+        painted,
+        "which is the paper's"
+    );
+    let (name, physical) = render("c.png", &["--technique", "composite:shade=paper", "--shade", "physical"]);
+    assert_eq!(name, "composite:shade=physical", "--shade has the last word");
+    assert_ne!(painted, physical, "the shades differ");
+    assert_eq!(
+        render("d.png", &["--technique", "composite:shade=physical"]).1,
+        physical,
+        "the same as an option"
+    );
+}
+
+#[test]
 fn demo() {
     let place = Place::new();
     if !opengl(&place) {

@@ -31,8 +31,16 @@ fn wrong_command_lines() {
         (&["render", "scene.toml", "-o", "a.png", "--msaa", "0"], "2, 4, 8"),
         (&["render", "scene.toml", "-o", "a.png", "--msaa", "3"], "2, 4, 8"),
         (&["render", "scene.toml", "-o", "a.png", "--msaa", "4096"], "2, 4, 8"),
-        (&["render", "scene.toml", "-o", "a.png", "--technique", "magic"], "analytic and raytraced"),
-        (&["render", "scene.toml", "-o", "a.png", "--technique", "composite"], "analytic and raytraced"),
+        (&["render", "scene.toml", "-o", "a.png", "--technique", "magic"], "the techniques are analytic"),
+        (&["render", "scene.toml", "-o", "a.png", "--technique", ""], "and raytraced"),
+        (&["render", "scene.toml", "-o", "a.png", "--technique", "analytic:size=3"], "no option `size=3`"),
+        (&["render", "scene.toml", "-o", "a.png", "--technique", "raytraced:size=3"], "has no options"),
+        (&["render", "scene.toml", "-o", "a.png", "--shade", "pretty"], "pretty"),
+        (&["render", "scene.toml", "-o", "a.png", "--shade", "paper"], "no option `shade=paper`"),
+        (
+            &["render", "scene.toml", "-o", "a.png", "--shade", "physical", "--backend", "cpu"],
+            "has no options",
+        ),
         (&["render", "scene.toml", "-o", "a.png", "--backend", "vulkan"], "vulkan"),
         (&["render", "scene.toml", "-o", "a.png", "--backend", "cpu", "--technique", "analytic"], "OpenGL"),
         (&["render", "scene.toml", "-o", "a.png", "--backend", "gl", "--technique", "raytraced"], "CPU"),
@@ -181,7 +189,7 @@ fn too_many_visibilities() {
 #[test]
 fn help_and_version_are_no_errors() {
     let place = Place::new();
-    for command in ["demo", "render", "trace", "check", "info"] {
+    for command in ["demo", "render", "trace", "check", "compare", "bench", "info"] {
         let help = place.run([command, "--help"]);
         assert_eq!(help.status.code(), Some(0), "help is no error");
         let text = stdout(&help);
@@ -190,6 +198,13 @@ fn help_and_version_are_no_errors() {
             "examples: {text}"
         );
         assert_eq!(stderr(&help), "", "nothing on standard error");
+    }
+    let render = stdout(&place.run(["render", "--help"]));
+    for name in antumbra::Technique::NAMES.iter().chain(&["raytraced"]) {
+        assert!(
+            render.lines().any(|line| line.trim().starts_with(&format!("{name} "))),
+            "{name} is listed: {render}"
+        );
     }
     let help = stdout(&place.run(["--help"]));
     assert!(help.contains("Examples:") && help.contains("Exit code"), "the general help: {help}");

@@ -18,11 +18,11 @@ pub(crate) const GROUP_LIGHTS: usize = 4;
 #[repr(C)]
 pub(crate) struct Vertex {
     /// Clip space.
-    position: [f32; 2],
+    pub(crate) position: [f32; 2],
     /// Channel + 4 * first texel.
-    blocker: u32,
+    pub(crate) blocker: u32,
     /// The occluder's id.
-    id: u32,
+    pub(crate) id: u32,
 }
 
 /// The vertices of one target and one program: one draw.
@@ -136,7 +136,7 @@ impl PairBuilder {
 }
 
 /// From pixels of the viewport to clip space.
-fn clip_position(p: DVec2, size: DVec2) -> [f32; 2] {
+pub(crate) fn clip_position(p: DVec2, size: DVec2) -> [f32; 2] {
     (p / size * 2.0 - 1.0).as_vec2().to_array()
 }
 

@@ -60,6 +60,11 @@ impl ProxyBuilder {
         self.bound_ends(view, size)
     }
 
+    /// The same for a flat convex shape of these corners (view space) and nothing behind it.
+    pub(crate) fn bound_flat(&mut self, corners_vs: &[DVec3], view: &View) -> &[DVec2] {
+        self.bound_hull(corners_vs.iter().map(|p| view.projection * p.extend(1.0)), [], view)
+    }
+
     /// The same for the convex hull of corners and of the directions in which it goes on without end, both in
     /// clip space.
     pub(crate) fn bound_hull(

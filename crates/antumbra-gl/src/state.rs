@@ -263,6 +263,8 @@ pub(crate) enum Blend {
     Add,
     /// The product of the colours; the target keeps its alpha.
     Multiply,
+    /// What is drawn over what is there, by its alpha; the target keeps its own.
+    Over,
 }
 
 impl Blend {
@@ -271,11 +273,12 @@ impl Blend {
     /// # Safety
     /// `caps` are the context's, and a [`StateGuard`] will put the host's blending back.
     pub(crate) unsafe fn apply(self, gl: &glow::Context, caps: Caps) {
-        use glow::{FUNC_ADD, MIN, ONE, SRC_COLOR, ZERO};
+        use glow::{FUNC_ADD, MIN, ONE, ONE_MINUS_SRC_ALPHA, SRC_ALPHA, SRC_COLOR, ZERO};
         let (function, equation) = match self {
             Self::Min => ([ONE, ONE, ONE, ONE], [MIN; 2]),
             Self::Add => ([ONE, ONE, ONE, ONE], [FUNC_ADD; 2]),
             Self::Multiply => ([ZERO, SRC_COLOR, ZERO, ONE], [FUNC_ADD; 2]),
+            Self::Over => ([SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ZERO, ONE], [FUNC_ADD; 2]),
         };
         // SAFETY: the caller's.
         unsafe { set_blending(gl, caps, true, function, equation) }

@@ -16,6 +16,7 @@ mod program;
 mod stage;
 mod surface;
 mod targets;
+mod timer;
 
 pub use context::{Api, ContextInfo, HeadlessContext};
 pub use describe::{Described, describe, objection};
@@ -23,3 +24,4 @@ pub use error::HostError;
 pub use picture::{RenderOptions, Rendered};
 pub use stage::{Buffers, Setting, Stage};
 pub use targets::ColorFormat;
+pub use timer::FrameTimer;

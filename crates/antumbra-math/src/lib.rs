@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod blocking;
+pub mod composite;
 mod light;
 pub mod mesh;
 pub mod plane_shadow;

@@ -138,8 +138,8 @@ fn summarise(path: &Path, scene: &Scene) -> Summary {
     let shapes = scene.objects.iter().flat_map(|object| &object.parts).map(|part| shape_name(&part.shape));
     let mut techniques = Vec::new();
     let mut limits = Vec::new();
-    for technique in Technique::ALL {
-        match technique.objection(scene) {
+    for technique in Technique::all() {
+        match technique.objection(scene, 0.0) {
             None => techniques.push(technique.name()),
             Some(objection) => limits.push(format!("not {}: {objection}", technique.name())),
         }

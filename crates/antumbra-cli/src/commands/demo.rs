@@ -81,9 +81,9 @@ fn open(backend: Option<Backend>) -> Result<Option<OpenGl>, CliError> {
 
 /// Draws with OpenGL where there is one and the technique can do the scene, else on the CPU.
 fn draw_one(gl: Option<&mut OpenGl>, scene: &Scene, size: Size) -> Result<Drawing, CliError> {
-    let request = Request { scene, size, time: 0.0, visibility: false };
+    let request = Request { scene, size, time: 0.0, visibility: false, shadows: true };
     if let Some(gl) = gl {
-        return gl.draw(&request, None);
+        return gl.draw(&request, &antumbra::Technique::default(), None);
     }
     Ok(draw::trace(&request, CPU_SAMPLES, &|_, _, _| ()))
 }

@@ -1,10 +1,14 @@
 //! The commands, one file each.
 
+mod bench;
 mod check;
+mod compare;
 mod demo;
 mod info;
 mod render;
 mod trace;
+
+pub(crate) use bench::FigureName;
 
 use antumbra_scene::Scene;
 
@@ -29,6 +33,8 @@ pub(crate) fn run(cli: Cli) -> Result<(), CliError> {
         Command::Render(arguments) => render::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
 }
@@ -44,11 +50,7 @@ impl Job {
     /// Reads the scene and checks size and files, before the long work.
     fn new(arguments: &PictureArgs) -> Result<Self, CliError> {
         let scene = Scene::load(&arguments.scene)?;
-        let size = match arguments.size {
-            Some(size) => size,
-            None => Size::new(scene.image.width, scene.image.height)
-                .map_err(|what| CliError::Usage(format!("the scene's own size: {what}; use --size")))?,
-        };
+        let size = size(arguments.size, &scene)?;
         if arguments.visibility.is_some() && size.pixels() * scene.lights.len() as u64 > MAX_VISIBILITY {
             return Err(CliError::Usage(format!(
                 "{} visibilities of {}x{} are too large; give a smaller --size",
@@ -68,6 +70,7 @@ impl Job {
             size: self.size,
             time: arguments.time,
             visibility: arguments.visibility.is_some(),
+            shadows: true,
         }
     }
 
@@ -75,14 +78,14 @@ impl Job {
     fn finish(
         self,
         arguments: &PictureArgs,
-        technique: Technique,
+        technique: &Technique,
         drawing: &Drawing,
         driver: Option<Driver>,
     ) -> Result<(), CliError> {
         let on_cpu = driver.is_none();
         Report {
             scene: report::text(&arguments.scene),
-            technique: technique.name(),
+            technique: technique.to_string(),
             backend: if on_cpu { "cpu" } else { "gl" },
             width: self.size.width,
             height: self.size.height,
@@ -102,6 +105,15 @@ impl Job {
     fn write(self, drawing: &Drawing) -> Result<Vec<String>, CliError> {
         let picture = picture(&self.scene, self.size, drawing);
         Ok(report::texts(&self.plan.write(&picture, &drawing.visibility)?))
+    }
+}
+
+/// The size asked for, or the scene's own.
+fn size(asked: Option<Size>, scene: &Scene) -> Result<Size, CliError> {
+    match asked {
+        Some(size) => Ok(size),
+        None => Size::new(scene.image.width, scene.image.height)
+            .map_err(|what| CliError::Usage(format!("the scene's own size: {what}; use --size"))),
     }
 }
 

@@ -13,39 +13,50 @@ const CPU_SAMPLES: u32 = 64;
 /// Renders a scene.
 ///
 /// # Errors
-/// A technique that the backend has not, and whatever is wrong with scene, files or OpenGL.
+/// A technique that the backend has not, an option that the technique has not, and whatever is wrong with scene, files
+/// or OpenGL.
 pub(crate) fn run(arguments: &RenderArgs) -> Result<(), CliError> {
     match technique(arguments)? {
-        Technique::Analytic => with_opengl(arguments),
+        Technique::Gl(technique) => with_opengl(arguments, technique),
         Technique::Raytraced => trace::draw(&arguments.picture, arguments.msaa.unwrap_or(CPU_SAMPLES)),
     }
 }
 
 /// The technique, which the backend decides where it is not named, and the reverse.
 fn technique(arguments: &RenderArgs) -> Result<Technique, CliError> {
-    match (arguments.technique, arguments.backend) {
-        (Some(Technique::Analytic), Some(Backend::Cpu)) => Err(CliError::Usage(
-            "technique `analytic` draws with OpenGL; leave out --backend cpu, or use --technique raytraced"
-                .to_owned(),
-        )),
-        (Some(Technique::Raytraced), Some(Backend::Gl)) => Err(CliError::Usage(
-            "technique `raytraced` draws on the CPU; leave out --backend gl, or use --technique analytic"
-                .to_owned(),
-        )),
-        (Some(technique), _) => Ok(technique),
-        (None, Some(Backend::Cpu)) => Ok(Technique::Raytraced),
-        (None, Some(Backend::Gl) | None) => Ok(Technique::Analytic),
+    let technique = match (&arguments.technique, arguments.backend) {
+        (Some(technique @ Technique::Gl(_)), Some(Backend::Cpu)) => {
+            return Err(CliError::Usage(format!(
+                "technique `{}` draws with OpenGL; leave out --backend cpu, or use --technique raytraced",
+                technique.name()
+            )));
+        }
+        (Some(Technique::Raytraced), Some(Backend::Gl)) => {
+            return Err(CliError::Usage(format!(
+                "technique `raytraced` draws on the CPU; leave out --backend gl, or use --technique {}",
+                antumbra::Technique::default().name()
+            )));
+        }
+        (Some(technique), _) => *technique,
+        (None, Some(Backend::Cpu)) => Technique::Raytraced,
+        (None, Some(Backend::Gl) | None) => Technique::Gl(antumbra::Technique::default()),
+    };
+    match arguments.shade {
+        Some(shade) => technique
+            .with_option("shade", shade.name())
+            .map_err(|what| CliError::Usage(format!("--shade {}: {what}", shade.name()))),
+        None => Ok(technique),
     }
 }
 
-fn with_opengl(arguments: &RenderArgs) -> Result<(), CliError> {
+fn with_opengl(arguments: &RenderArgs, technique: antumbra::Technique) -> Result<(), CliError> {
     let job = Job::new(&arguments.picture)?;
     let progress = Progress::new("rendering", "scenes");
     progress.set(0, 1);
     let mut gl = OpenGl::open().map_err(CliError::OpenGl)?;
     let driver = gl.driver();
-    let drawing = gl.draw(&job.request(&arguments.picture), arguments.msaa)?;
+    let drawing = gl.draw(&job.request(&arguments.picture), &technique, arguments.msaa)?;
     progress.set(1, 1);
     drop(progress);
-    job.finish(&arguments.picture, Technique::Analytic, &drawing, Some(driver))
+    job.finish(&arguments.picture, &Technique::Gl(technique), &drawing, Some(driver))
 }

@@ -29,5 +29,5 @@ pub(crate) fn draw(arguments: &PictureArgs, samples: u32) -> Result<(), CliError
         }
     });
     drop(progress);
-    job.finish(arguments, Technique::Raytraced, &drawing, None)
+    job.finish(arguments, &Technique::Raytraced, &drawing, None)
 }

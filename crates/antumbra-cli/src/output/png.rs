@@ -9,11 +9,7 @@ use super::Picture;
 pub(crate) fn write_picture(picture: &Picture, to: &mut impl Write) -> io::Result<()> {
     let bytes: Vec<u8> =
         (0..picture.pixels.len()).flat_map(|index| picture.exposed(index).map(encode_srgb)).collect();
-    let mut encoder = png::Encoder::new(to, picture.width, picture.height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-    write(encoder, &bytes)
+    write_rgb8(picture.width as usize, picture.height as usize, &bytes, to)
 }
 
 /// Writes one light's visibility, rows top to bottom: 0 to 1 becomes 0 to 65535.
@@ -28,6 +24,17 @@ pub(crate) fn write_visibility(
     encoder.set_color(png::ColorType::Grayscale);
     encoder.set_depth(png::BitDepth::Sixteen);
     write(encoder, &bytes)
+}
+
+/// Writes a picture of 8-bit sRGB levels, three bytes a pixel, rows top to bottom. Sides that 32 bits cannot count are
+/// an error.
+pub(crate) fn write_rgb8(width: usize, height: usize, bytes: &[u8], to: &mut impl Write) -> io::Result<()> {
+    let side = |side: usize| u32::try_from(side).map_err(io::Error::other);
+    let mut encoder = png::Encoder::new(to, side(width)?, side(height)?);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    write(encoder, bytes)
 }
 
 fn write<W: Write>(encoder: png::Encoder<W>, bytes: &[u8]) -> io::Result<()> {
@@ -49,7 +56,7 @@ pub(crate) fn visibility_level(visibility: f32) -> u16 {
 
 /// Linear to sRGB (IEC 61966-2-1), as one of 256 levels.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in [0, 255] by construction")]
-fn encode_srgb(linear: f32) -> u8 {
+pub(crate) fn encode_srgb(linear: f32) -> u8 {
     let linear = f64::from(linear.clamp(0.0, 1.0));
     let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (encoded * 255.0).round() as u8

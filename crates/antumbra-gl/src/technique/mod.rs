@@ -2,6 +2,7 @@
 
 pub mod analytic;
 mod casters;
+pub mod composite;
 mod options;
 pub mod projected;
 
@@ -98,6 +99,8 @@ macro_rules! techniques {
 techniques! {
     /// Exact closed forms, on any surface.
     Analytic = analytic, "analytic";
+    /// The closed forms of the composite method (2013, 2017) on one plane, as published.
+    Composite = composite, "composite";
     /// Triangles flattened onto planes and rectangles, with a stencil buffer.
     Projected = projected, "projected";
 }

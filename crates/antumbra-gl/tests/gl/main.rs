@@ -13,6 +13,8 @@ mod world;
 
 mod bad_frames;
 mod cameras;
+mod composite;
+mod composite_guest;
 mod depth_only;
 mod leaks;
 mod lights;

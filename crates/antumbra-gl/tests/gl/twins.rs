@@ -6,8 +6,9 @@ use antumbra_gl::{Light, ShaderLight};
 use antumbra_math::blocking::{
     Blocker, Blockers, Footprint, PolygonBlocker, half_plane_coverage, polygon_coverage, screen_footprint,
 };
-use antumbra_math::{Cone, Disc, Rectangle, Shape, Sphere, Triangle};
-use glam::{DMat4, DVec3, Vec3, Vec4};
+use antumbra_math::composite::{PartShape, PlacedPart, part_coverage};
+use antumbra_math::{Cone, Disc, PlaneFrame, Rectangle, Shape, Sphere, Triangle};
+use glam::{DMat4, DVec2, DVec3, Vec3, Vec4};
 use glow::HasContext;
 
 const COVERAGE: &str = include_str!("../../src/shaders/coverage.glsl");
@@ -16,6 +17,7 @@ const LIGHTS: &str = include_str!("../../src/shaders/lights.glsl");
 const SPHERE: &str = include_str!("../../src/shaders/analytic/sphere.glsl");
 const DISC: &str = include_str!("../../src/shaders/analytic/disc.glsl");
 const POLYGON: &str = include_str!("../../src/shaders/analytic/polygon.glsl");
+const PART: &str = include_str!("../../src/shaders/composite/part.glsl");
 
 /// Calls side by side in a row of the target.
 const ROW: usize = 64;
@@ -368,5 +370,52 @@ fn irradiance_is_its_twin() {
             cpu.len(),
             &off[..off.len().min(5)]
         );
+    });
+}
+
+/// Parts of composite shadows, at points in them, beside them and near their edges; of the size of a
+/// room and a million times as large.
+#[test]
+fn part_coverage_is_its_twin() {
+    in_each_api(|gl| {
+        let mut random = Random::new();
+        let (mut inputs, mut cpu) = (Vec::new(), Vec::new());
+        while inputs.len() < 20_000 {
+            let plane = antumbra_math::Plane::through(random.vector(3.0), random.unit());
+            let frame = PlaneFrame::of_plane(&plane).expect("a plane");
+            let mut at = |size: f64| DVec2::new(random.within(-size, size), random.within(-size, size));
+            let (a, b, c, edge) = (at(3.0), at(3.0), at(3.0), at(2.0));
+            let shape = if random.0.bool() {
+                PartShape::Triangle { vertices: [a, b, c] }
+            } else {
+                // Its edge near the middle of things, however large it is.
+                let radius = 10f64.powf(random.within(-1.0, 6.0));
+                PartShape::Disc { center: edge + a.normalize_or_zero() * radius, radius }
+            };
+            let Some(part) = PlacedPart::new(&shape, &frame) else { continue };
+            let part = part.to_f32();
+            let texels = match part {
+                PlacedPart::Disc { center, radius, power } => {
+                    [center.extend(radius), Vec4::X * power, Vec4::ZERO, Vec4::Y]
+                }
+                PlacedPart::Triangle { edges: [a, b, c] } => {
+                    let plane = |(n, d): (Vec3, f32)| n.extend(d);
+                    [plane(a), plane(b), plane(c), Vec4::ZERO]
+                }
+            };
+            for _ in 0..4 {
+                let near = DVec2::new(random.within(-0.3, 0.3), random.within(-0.3, 0.3));
+                let footprint = random.footprint(frame.point(edge + near));
+                let [p, x, y] = footprint_texels(&footprint);
+                inputs.push([p, x, y, texels[0], texels[1], texels[2], texels[3]]);
+                cpu.push(part_coverage(&part, &footprint));
+            }
+        }
+        let body = "Footprint f = Footprint(INPUT(0).xyz, INPUT(1).xyz, INPUT(2).xyz); \
+                    o_out = vec4(part_coverage(INPUT(3), INPUT(4), INPUT(5), INPUT(6), f));";
+        let Some(gpu) = on_gpu(gl, &[COVERAGE, PART], body, &inputs) else { return };
+        let gpu: Vec<f32> = gpu.iter().map(|r| r.x).collect();
+        // As for blockers: units in the last place of some metres, against footprints of centimetres.
+        assert_equal("part_coverage", &gpu, &cpu, 1e-3, 1e-3);
     });
 }

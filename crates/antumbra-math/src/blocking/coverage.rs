@@ -73,19 +73,19 @@ pub fn half_plane_coverage<R: Real>(value: R, slope_x: R, slope_y: R) -> R {
 
 /// An edge across a pixel: what lies on its inner side, and how it runs there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Edge<R: Real> {
+pub(crate) struct Edge<R: Real> {
     /// The area of the pixel on the inner side, in [0, 1].
-    pub(super) coverage: R,
+    pub(crate) coverage: R,
     /// Change of the distance inwards, for one pixel to the right and one up.
     slope: (R, R),
 }
 
 impl<R: Real> Edge<R> {
     /// No edge: everything is inside.
-    pub(super) const NONE: Self = Self { coverage: R::ONE, slope: (R::ZERO, R::ZERO) };
+    pub(crate) const NONE: Self = Self { coverage: R::ONE, slope: (R::ZERO, R::ZERO) };
 
     /// The edge where `value` is zero, given the gradient of `value` in space.
-    pub(super) fn new<V: Vector<Real = R>>(value: R, gradient: V, footprint: &Footprint<V>) -> Self {
+    pub(crate) fn new<V: Vector<Real = R>>(value: R, gradient: V, footprint: &Footprint<V>) -> Self {
         let slope = (gradient.dot(footprint.dx), gradient.dot(footprint.dy));
         Self { coverage: half_plane_coverage(value, slope.0, slope.1), slope }
     }
@@ -97,7 +97,7 @@ impl<R: Real> Edge<R> {
 /// the same way it is the smaller one, for edges that face each other (the tip of a triangle) the
 /// sum less one, at right angles close to the product; between those it is interpolated by the
 /// cosine.
-pub(super) fn corner_coverage<R: Real>(a: &Edge<R>, b: &Edge<R>) -> R {
+pub(crate) fn corner_coverage<R: Real>(a: &Edge<R>, b: &Edge<R>) -> R {
     let (p, q) = (a.slope, b.slope);
     let lengths = (p.0 * p.0 + p.1 * p.1) * (q.0 * q.0 + q.1 * q.1);
     // The least float32 keeps: right angles are what pixels below a nanometre get.

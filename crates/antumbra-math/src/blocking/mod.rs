@@ -22,7 +22,7 @@
 //! of a cone both grow by the cone's radius over the light's distance from the rim.
 
 mod cone;
-mod coverage;
+pub(crate) mod coverage;
 mod disc;
 mod outline;
 mod polygon;

@@ -68,7 +68,7 @@ impl PlaneFrame {
     }
 
     /// Whether every number is finite.
-    pub(super) fn is_finite(&self) -> bool {
+    pub(crate) fn is_finite(&self) -> bool {
         self.origin.is_finite() && self.u.is_finite() && self.v.is_finite() && self.normal.is_finite()
     }
 }

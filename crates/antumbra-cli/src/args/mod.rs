@@ -1,25 +1,19 @@
 //! The command line: what may be written, and what is said when something else was.
 
+mod values;
+
 use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 
+pub(crate) use values::{MAX_SIDE, Size};
+use values::{parse_frames, parse_msaa, parse_samples, parse_size, parse_time};
+
+use crate::commands::FigureName;
 use crate::error::CliError;
 use crate::technique::Technique;
-
-/// The longest side of a picture, pixels: what OpenGL drivers allow for a texture, and the reference likewise.
-pub(crate) const MAX_SIDE: u32 = 16_384;
-
-/// The most pixels of a picture: 8K (7680x4320) fits, and takes some 8 GB as 4 samples a pixel with OpenGL.
-pub(crate) const MAX_PIXELS: u64 = 1 << 25;
-
-/// The most samples a pixel of the ray tracer; beyond it a 24-bit mantissa no longer gains.
-const MAX_SAMPLES: u32 = 65_536;
-
-/// The most samples of multisampling that may be asked for; drivers usually have 4 to 16.
-const MAX_MSAA: u32 = 64;
 
 /// Exact shadows: renders scene files with OpenGL, and traces their ground truth on the CPU.
 #[derive(Debug, Parser)]
@@ -34,6 +28,8 @@ const MAX_MSAA: u32 = 64;
         antumbra render scene.toml -o picture.png          one scene with OpenGL\n  \
         antumbra trace scene.toml -o truth.exr             the same, ray traced on the CPU\n  \
         antumbra check scene.toml                          is the scene file right, what is in it\n  \
+        antumbra compare scene.toml                        every technique beside the truth, as a page\n  \
+        antumbra bench                                     how long every technique takes, as charts\n  \
         antumbra info                                      the OpenGL driver\n\n\
         Exit code: 0, or 2 with one line `error: ...`. No partial file is ever left behind.",
     args_conflicts_with_subcommands = true
@@ -58,6 +54,7 @@ pub(crate) enum Command {
         antumbra render scene.toml -o picture.png\n  \
         antumbra render scene.toml -o picture.exr --size 1920x1080 --msaa 8\n  \
         antumbra render scene.toml -o picture.png --time 2.5 --visibility masks --json\n  \
+        antumbra render scene.toml -o picture.png --technique NAME:key=value\n  \
         antumbra render scene.toml -o picture.png --backend cpu")]
     Render(RenderArgs),
     /// Ray trace a scene on the CPU: the ground truth
@@ -70,6 +67,21 @@ pub(crate) enum Command {
         antumbra check scene.toml\n  \
         antumbra check scenes/*.toml --json")]
     Check(CheckArgs),
+    /// Hold every technique against the ray traced truth on one scene: a page, a contact sheet, numbers
+    #[command(after_help = "Examples:\n  \
+        antumbra compare scene.toml\n  \
+        antumbra compare scene.toml -o comparison --size 640x360 --time 1.5\n  \
+        antumbra compare scene.toml --techniques analytic,map:size=512,map:size=2048 --json\n\n\
+        Writes DIR/index.html (open it in a browser), DIR/contact-sheet.png and DIR/compare.json.")]
+    Compare(CompareArgs),
+    /// Measure how long every technique takes: charts, tables and the scenes measured
+    #[command(after_help = "Examples:\n  \
+        antumbra bench\n  \
+        antumbra bench --figure lights --frames 60 -o measured\n  \
+        antumbra bench --figure primitives --techniques analytic,raytraced --size 256x256 --json\n\n\
+        Writes DIR/bench.json, DIR/bench.csv, a chart DIR/FIGURE.svg for each figure, and every scene measured as\n\
+        DIR/scenes/*.toml.")]
+    Bench(BenchArgs),
     /// Say which OpenGL driver there is and what it can do
     #[command(after_help = "Examples:\n  \
         antumbra info\n  \
@@ -84,6 +96,25 @@ pub(crate) enum Backend {
     Gl,
     /// The ray tracer on the CPU
     Cpu,
+}
+
+/// What a shadow looks like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Shade {
+    /// Painted with the papers' grey
+    Paper,
+    /// Without the light's contribution
+    Physical,
+}
+
+impl Shade {
+    /// The value of the option `shade` of a technique.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Physical => "physical",
+        }
+    }
 }
 
 /// Arguments of `antumbra demo`.
@@ -137,9 +168,13 @@ pub(crate) struct RenderArgs {
     /// Scene, moment, size and files.
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
-    /// How shadows are found: analytic (OpenGL) or raytraced (CPU)
-    #[arg(long, value_name = "NAME", value_parser = parse_technique)]
+    #[arg(long, value_name = "NAME[:key=value..]", value_parser = Technique::parse,
+        help = Technique::help(), long_help = Technique::long_help())]
     pub(crate) technique: Option<Technique>,
+    /// What a shadow looks like, for the techniques with an option `shade`: painted as the papers do, or without the
+    /// light's contribution
+    #[arg(long, value_enum, value_name = "paper|physical", hide_possible_values = true)]
+    pub(crate) shade: Option<Shade>,
     /// Samples a pixel of multisampling: 1, 2, 4, 8, ...; with the CPU, rays a pixel
     #[arg(long, value_name = "N", value_parser = parse_msaa, allow_hyphen_values = true)]
     pub(crate) msaa: Option<u32>,
@@ -170,91 +205,64 @@ pub(crate) struct CheckArgs {
     pub(crate) json: bool,
 }
 
+/// Arguments of `antumbra compare`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct CompareArgs {
+    /// The scene file
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+    /// Directory for the page, the sheet and the numbers; made if missing
+    #[arg(short, long, value_name = "DIR", default_value = "antumbra-compare")]
+    pub(crate) output: PathBuf,
+    /// The techniques, with options, instead of all of them (`antumbra render --help` lists them)
+    #[arg(long, value_name = "A,B:key=value,..", value_delimiter = ',', value_parser = Technique::parse)]
+    pub(crate) techniques: Vec<Technique>,
+    /// Size in pixels instead of the scene's own
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
+    pub(crate) size: Option<Size>,
+    /// The moment of moving lights and objects, seconds
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time, default_value = "0", allow_hyphen_values = true)]
+    pub(crate) time: f64,
+    /// Rays a pixel of the reference picture
+    #[arg(long, value_name = "N", value_parser = parse_samples, allow_hyphen_values = true, default_value = "64")]
+    pub(crate) samples: u32,
+    /// Frames that each technique is timed with
+    #[arg(long, value_name = "N", value_parser = parse_frames, allow_hyphen_values = true, default_value = "20")]
+    pub(crate) frames: u32,
+    /// Print the JSON object on standard output instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Arguments of `antumbra bench`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct BenchArgs {
+    /// One figure instead of all
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub(crate) figure: Option<FigureName>,
+    /// Directory for charts, tables and scenes; made if missing
+    #[arg(short, long, value_name = "DIR", default_value = "antumbra-bench")]
+    pub(crate) output: PathBuf,
+    /// The techniques, with options, instead of each figure's own (`antumbra render --help` lists them)
+    #[arg(long, value_name = "A,B:key=value,..", value_delimiter = ',', value_parser = Technique::parse)]
+    pub(crate) techniques: Vec<Technique>,
+    /// Frames measured in each place of a figure, with and without shadows
+    #[arg(long, value_name = "N", value_parser = parse_frames, allow_hyphen_values = true, default_value = "30")]
+    pub(crate) frames: u32,
+    /// Size of the frames in pixels; of `resolution`, the shape alone
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true, default_value = "512x512")]
+    pub(crate) size: Size,
+    /// Print the JSON object on standard output instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
 /// Arguments of `antumbra info`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct InfoArgs {
     /// Print one JSON object on standard output instead of text
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// Width and height of a picture, pixels; each in 1 to [`MAX_SIDE`], together at most [`MAX_PIXELS`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Size {
-    /// Pixels across.
-    pub(crate) width: u32,
-    /// Pixels down.
-    pub(crate) height: u32,
-}
-
-impl Size {
-    /// A size within the limits.
-    ///
-    /// # Errors
-    /// What is wrong and what to do instead.
-    pub(crate) fn new(width: u32, height: u32) -> Result<Self, String> {
-        if width == 0 || height == 0 {
-            return Err(format!("a picture of {width}x{height} has no pixels; give at least 1x1"));
-        }
-        if width > MAX_SIDE || height > MAX_SIDE {
-            return Err(format!("{width}x{height} is too large; a side has at most {MAX_SIDE} pixels"));
-        }
-        if u64::from(width) * u64::from(height) > MAX_PIXELS {
-            return Err(format!("{width}x{height} is too large; a picture has at most {MAX_PIXELS} pixels"));
-        }
-        Ok(Self { width, height })
-    }
-
-    /// Pixels in all.
-    pub(crate) fn pixels(self) -> u64 {
-        u64::from(self.width) * u64::from(self.height)
-    }
-}
-
-fn parse_size(text: &str) -> Result<Size, String> {
-    let wrong = || "not a size; write width x height in pixels, such as 960x540".to_owned();
-    let digits = |side: &str| -> Result<u32, String> {
-        if side.is_empty() || !side.bytes().all(|byte| byte.is_ascii_digit()) {
-            return Err(wrong());
-        }
-        // Digits alone, so the only failure left is a number beyond u32, which is too large in any case.
-        Ok(side.parse().unwrap_or(u32::MAX))
-    };
-    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
-    let (width, height) = (digits(width)?, digits(height)?);
-    if width == u32::MAX || height == u32::MAX {
-        return Err(format!("too large; a side has at most {MAX_SIDE} pixels"));
-    }
-    Size::new(width, height)
-}
-
-fn parse_time(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(time) if time.is_finite() => Ok(time),
-        _ => Err("not a moment; give a finite number of seconds, such as 2.5".to_owned()),
-    }
-}
-
-fn parse_samples(text: &str) -> Result<u32, String> {
-    match text.parse::<u32>() {
-        Ok(samples) if (1..=MAX_SAMPLES).contains(&samples) => Ok(samples),
-        _ => Err(format!("not a number of samples; give a whole number from 1 to {MAX_SAMPLES}")),
-    }
-}
-
-fn parse_msaa(text: &str) -> Result<u32, String> {
-    match text.parse::<u32>() {
-        Ok(samples) if samples.is_power_of_two() && samples <= MAX_MSAA => Ok(samples),
-        _ => {
-            Err("not a number of samples; give 1 (off), 2, 4, 8 or another power of two that the driver has"
-                .to_owned())
-        }
-    }
-}
-
-fn parse_technique(text: &str) -> Result<Technique, String> {
-    Technique::from_name(text)
-        .ok_or_else(|| format!("no such technique; there are {}", Technique::names().join(" and ")))
 }
 
 /// Reads the command line.
@@ -311,36 +319,5 @@ mod tests {
     #[test]
     fn the_definition_is_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn sizes() {
-        assert_eq!(parse_size("960x540"), Ok(Size { width: 960, height: 540 }), "the plain case");
-        assert_eq!(parse_size("1X1"), Ok(Size { width: 1, height: 1 }), "a capital X, the smallest");
-        assert_eq!(parse_size("16384x2048"), Ok(Size { width: 16_384, height: 2_048 }), "the largest");
-        for wrong in ["", "x", "10", "10x", "x10", "0x10", "10x0", "-1x10", "1.5x2", "16385x1", "8192x4097"] {
-            assert!(parse_size(wrong).is_err(), "{wrong} is no size");
-        }
-        for wrong in ["99999999999x1", "1x4294967295", "+1x1", "1x1x1", "１x１", "1 x 1"] {
-            assert!(parse_size(wrong).is_err(), "{wrong} is no size");
-        }
-    }
-
-    #[test]
-    fn times_are_finite() {
-        assert_eq!(parse_time("-2.5"), Ok(-2.5), "time may run backwards");
-        for wrong in ["nan", "inf", "-inf", "1e999", "", "1s"] {
-            assert!(parse_time(wrong).is_err(), "{wrong} is no moment");
-        }
-    }
-
-    #[test]
-    fn multisampling_is_a_power_of_two() {
-        for samples in [1, 2, 4, 8, 16, 32, 64] {
-            assert_eq!(parse_msaa(&samples.to_string()), Ok(samples), "{samples} is a power of two");
-        }
-        for wrong in ["0", "3", "128", "-4", "4.0", ""] {
-            assert!(parse_msaa(wrong).is_err(), "{wrong} is none");
-        }
     }
 }

@@ -1,0 +1,143 @@
+//! The figures: what is varied, and the scenes for it. A new one is a file with its places, and a line in the list.
+
+mod lights;
+mod occluders;
+mod primitives;
+mod resolution;
+mod text;
+
+use clap::ValueEnum;
+
+use crate::args::Size;
+use crate::technique::Technique;
+
+/// A figure, by its name on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FigureName {
+    /// One circle, triangle, sphere, cone or complex object: Fig. 7 of the 2017 paper
+    Primitives,
+    /// 1 to 64 lights
+    Lights,
+    /// 1 to 1000 occluders
+    Occluders,
+    /// 256 to 2048 pixels across
+    Resolution,
+}
+
+/// A figure of the benchmark.
+pub(super) struct Figure {
+    /// Names its chart.
+    pub(super) name: FigureName,
+    /// What it shows.
+    pub(super) title: &'static str,
+    /// What is varied.
+    pub(super) axis: Axis,
+    /// The scenes, in the order of the axis.
+    pub(super) places: Vec<Place>,
+    /// Whether the ray tracer takes part where no techniques are named: it takes seconds for many lights.
+    pub(super) traced: bool,
+}
+
+/// What a figure varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Axis {
+    /// Kinds of things, side by side.
+    Kinds,
+    /// A number, on a logarithmic axis, and what it counts.
+    Number(&'static str),
+}
+
+/// One place on the axis of a figure.
+#[derive(Debug)]
+pub(super) struct Place {
+    /// Names the scene and its file.
+    pub(super) scene: String,
+    /// What stands below it on the axis.
+    pub(super) label: String,
+    /// Where on the axis: the number, or which kind.
+    pub(super) at: f64,
+    /// The scene file.
+    pub(super) toml: String,
+    /// Pixels of the frame.
+    pub(super) size: Size,
+}
+
+impl FigureName {
+    /// The name on the command line.
+    pub(super) fn text(self) -> &'static str {
+        match self {
+            Self::Primitives => "primitives",
+            Self::Lights => "lights",
+            Self::Occluders => "occluders",
+            Self::Resolution => "resolution",
+        }
+    }
+
+    /// The figure, with frames of a size.
+    pub(super) fn figure(self, size: Size) -> Figure {
+        match self {
+            Self::Primitives => primitives::figure(size),
+            Self::Lights => lights::figure(size),
+            Self::Occluders => occluders::figure(size),
+            Self::Resolution => resolution::figure(size),
+        }
+    }
+}
+
+impl Figure {
+    /// The techniques that take part where none are named.
+    pub(super) fn techniques(&self) -> Vec<Technique> {
+        let all = Technique::all().into_iter();
+        all.filter(|technique| self.traced || *technique != Technique::Raytraced).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use antumbra_scene::Scene;
+
+    use super::*;
+
+    #[test]
+    fn every_scene_is_right_and_has_what_the_axis_says() {
+        let mut names = BTreeSet::new();
+        for name in FigureName::value_variants() {
+            let figure = name.figure(Size { width: 512, height: 512 });
+            assert!(figure.places.len() >= 4, "{name:?} has an axis");
+            assert!(figure.places.is_sorted_by(|a, b| a.at < b.at), "{name:?} has its places in order");
+            for place in &figure.places {
+                assert!(names.insert(place.scene.clone()), "{} names one scene", place.scene);
+                let scene =
+                    Scene::parse(&place.toml, place.scene.as_ref()).unwrap_or_else(|error| panic!("{error}"));
+                let occluders = scene.objects.iter().filter(|object| object.casts_shadow).count();
+                let varied = match name {
+                    FigureName::Primitives => continue,
+                    FigureName::Lights => scene.lights.len(),
+                    FigureName::Occluders => occluders,
+                    FigureName::Resolution => place.size.width as usize,
+                };
+                assert_eq!(varied as f64, place.at, "{}", place.scene);
+                let analytic = Technique::Gl(antumbra::Technique::default());
+                assert_eq!(analytic.objection(&scene, 0.0), None, "{} is drawn", place.scene);
+            }
+        }
+    }
+
+    #[test]
+    fn resolution_keeps_the_shape() {
+        let heights = |width, height| -> Vec<u32> {
+            let places = FigureName::Resolution.figure(Size { width, height }).places;
+            assert!(
+                places.iter().all(|place| Size::new(place.size.width, place.size.height).is_ok()),
+                "allowed"
+            );
+            places.iter().map(|place| place.size.height).collect()
+        };
+        assert_eq!(heights(512, 512), [256, 512, 1024, 2048], "squares");
+        assert_eq!(heights(300, 100), [85, 171, 341, 683], "a third, rounded");
+        assert_eq!(heights(1, 16_384), [16_384; 4], "no higher than pictures may be");
+        assert_eq!(heights(16_384, 1), [1; 4], "no lower than a pixel");
+    }
+}

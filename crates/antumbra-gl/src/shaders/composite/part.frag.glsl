@@ -1,0 +1,46 @@
+// One part of a shadow on the receiver.
+//
+// PAINT: its grey, over the host's pixels. Otherwise the visibility of its light, blended into the light's
+// channel by minimum: the minimum of hard visibilities is their union's.
+
+uniform vec4 u_receiver[5];         // view space: its plane, then its sides, positive inside; (0, 1) for none
+uniform highp uint u_receiver_id;   // 0: none
+
+flat in vec4 v_blocker[BLOCKER_TEXELS];
+flat in vec4 v_channel;
+flat in highp uint v_id;            // of the vertex stage, unused
+
+layout(location = 0) out vec4 o_result;
+
+float receiver_distance(vec4 plane, SurfacePoint s) {
+    return dot(plane.xyz, s.position) + plane.w;
+}
+
+// Whether the receiver is what is seen.
+bool on_receiver(SurfacePoint s) {
+    float inside = min(min(receiver_distance(u_receiver[1], s), receiver_distance(u_receiver[2], s)),
+                       min(receiver_distance(u_receiver[3], s), receiver_distance(u_receiver[4], s)));
+    bool in_plane = s.has_id && u_receiver_id != 0u ? s.id == u_receiver_id
+                                                    : abs(receiver_distance(u_receiver[0], s)) <= s.tolerance;
+    return s.receives && in_plane && inside >= -s.tolerance;
+}
+
+void main() {
+    SurfacePoint s;
+    if (!surface_point(s) || !on_receiver(s)) {
+        discard;
+    }
+    // The receiver's own normal: every pixel of it has the same.
+    vec3 step = vec3(u_pixel_step.xy * u_pixel_step.w, u_pixel_step.z);
+    Footprint footprint = screen_footprint(s.position, u_receiver[0].xyz, step);
+    vec4 kind = v_blocker[3];
+    float coverage = part_coverage(v_blocker[0], v_blocker[1], v_blocker[2], kind, footprint);
+    if (!(coverage > 0.0)) {
+        discard;
+    }
+#ifdef PAINT
+    o_result = vec4(kind.xxx, coverage);
+#else
+    o_result = vec4(1.0) - v_channel * coverage;
+#endif
+}

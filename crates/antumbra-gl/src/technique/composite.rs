@@ -1,0 +1,262 @@
+//! `composite`: the closed forms of the composite method on one plane, as published.
+//!
+//! Each pair of light and occluder becomes a disc, a triangle, or both, on the receiver
+//! (`antumbra_math::composite`), bounded by a polygon on the screen. The papers' shade is painted over the host's
+//! pixels; or the same parts take the light's contribution, blended by minimum. Theory: docs/theory/composite.md.
+
+mod parts;
+
+use super::options::{OptionValue, choices, options};
+use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
+use crate::pairs::{BATCH_LIGHTS, Vertex};
+use crate::resources::UploadRing;
+use crate::scenery::{Receiver, ReceiverShape, Scenery};
+use crate::shader::{COVERAGE, Program, ProgramSource, SURFACE, Stage};
+use crate::state::Blend;
+use crate::{Caps, Encoding, Error};
+use antumbra_math::Light as Place;
+pub use antumbra_math::composite::SphereForm;
+use antumbra_math::plane_shadow::{Bounds, PlaneFrame};
+use glow::HasContext;
+use parts::{Drawn, PartBuilder, paints};
+
+/// What it is.
+pub(super) const ABOUT: About = About {
+    summary: "the closed forms and the painted shade of the papers of 2013 and 2017",
+    casts_from: "discs parallel to the receiver, triangles, spheres, cones standing upright, and unions of them",
+    falls_on: "one plane or rectangle",
+};
+
+choices! {
+    /// What a shadow does to the receiver.
+    pub enum Shade {
+        /// The papers': the grey 255 k of Eq. (1), opaque, in all channels. Lights are drawn one after the other: of
+        /// two shadows that overlap, the later light's is seen; of one light's, the darker.
+        Paper = "paper",
+        /// It takes the light's contribution, and no other's.
+        Physical = "physical",
+    }
+}
+
+impl OptionValue for SphereForm {
+    type Allowed = ();
+
+    fn read(text: &str) -> Option<Self> {
+        [Self::Circle, Self::Tangent].into_iter().find(|form| form.write() == text)
+    }
+
+    fn write(&self) -> String {
+        match self {
+            Self::Circle => "circle".into(),
+            Self::Tangent => "tangent".into(),
+        }
+    }
+
+    fn is_allowed(&self, (): &()) -> bool {
+        true
+    }
+
+    fn expected((): &()) -> String {
+        "circle or tangent".into()
+    }
+}
+
+options! {
+    /// Options of the technique `composite`.
+    pub struct Options {
+        /// What [`crate::Renderer::overlay`] draws. Masks are the physical visibility either way.
+        pub shade: Shade = Shade::Paper, ();
+        /// The circle that stands for a sphere.
+        pub sphere: SphereForm = SphereForm::Tangent, ();
+    }
+}
+
+macro_rules! part_program {
+    ($name:literal, $defines:literal) => {
+        ProgramSource {
+            name: $name,
+            vertex: Stage {
+                defines: "#define BLOCKER_TEXELS 4\n",
+                parts: &[include_str!("../shaders/analytic/blocker.vert.glsl")],
+            },
+            fragment: Stage {
+                defines: concat!("#define BLOCKER_TEXELS 4\n", $defines),
+                parts: &[
+                    COVERAGE,
+                    SURFACE,
+                    include_str!("../shaders/composite/part.glsl"),
+                    include_str!("../shaders/composite/part.frag.glsl"),
+                ],
+            },
+            uniforms: &["u_receiver", "u_receiver_id"],
+        }
+    };
+}
+
+/// What it compiles, by [`VISIBILITY`] and [`PAINT`].
+pub(super) const PROGRAMS: &[ProgramSource] =
+    &[part_program!("composite visibility", ""), part_program!("composite paint", "#define PAINT\n")];
+const VISIBILITY: usize = 0;
+const PAINT: usize = 1;
+
+pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
+    let refused = |part, reason: &str| Some(Refusal { part, reason: reason.into() });
+    if let Some(refusal) = Refusal::of_areas(scenery.lights) {
+        return Some(refusal);
+    }
+    let receiver = match scenery.receivers {
+        [receiver] => receiver,
+        [] => return refused(Part::Receivers, "needs one plane or rectangle that receives shadows"),
+        _ => return refused(Part::Receivers, "draws on one plane or rectangle, and several receive shadows"),
+    };
+    let Some((frame, _)) = receiver_frame(receiver) else {
+        return refused(
+            Part::Receivers,
+            "draws on a plane or rectangle of some extent, and the receiver has none",
+        );
+    };
+    if paints(options) {
+        let is_point = |place| matches!(place, Place::Point { .. });
+        if let Some(light) = scenery.lights.iter().position(|light| !is_point(light.place)) {
+            let reason =
+                "paints the shadows of point lights alone (it casts any light's with shade=physical)";
+            return refused(Part::Light(light), reason);
+        }
+    }
+    if !scenery.meshes.is_empty() {
+        return refused(Part::Mesh(0), "has no equations for meshes");
+    }
+    let others = scenery.occluders.iter().enumerate().filter(|(_, o)| o.id == 0 || o.id != receiver.id);
+    let mut refusals = others.filter_map(|(i, o)| {
+        let why = antumbra_math::composite::refusal(&o.shape, &frame)?;
+        Some(Refusal { part: Part::Occluder(i), reason: format!("has no equations for this: {why}") })
+    });
+    refusals.next()
+}
+
+/// The receiver's plane, and where in it the receiver lies. `None` for one without extent or with a number that is
+/// not finite.
+fn receiver_frame(receiver: &Receiver) -> Option<(PlaneFrame, Bounds)> {
+    match &receiver.shape {
+        ReceiverShape::Plane(plane) => Some((PlaneFrame::of_plane(plane)?, Bounds::EVERYTHING)),
+        ReceiverShape::Rectangle(rectangle) => PlaneFrame::of_rectangle(rectangle),
+    }
+}
+
+/// The OpenGL objects, and the memory of the packing.
+pub(super) struct State {
+    uploads: UploadRing,
+    parts: PartBuilder,
+}
+
+impl State {
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive.
+    pub(super) unsafe fn new(gl: &glow::Context, _: &Caps) -> Result<Self, Error> {
+        // SAFETY: the caller's.
+        let uploads = unsafe { UploadRing::new(gl, size_of::<Vertex>() as i32)? };
+        Ok(Self { uploads, parts: PartBuilder::default() })
+    }
+
+    /// Uploads the packed parts and binds them.
+    ///
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive.
+    unsafe fn upload(&mut self, pass: &Pass<'_>) -> Result<(), Error> {
+        let gl = pass.gl;
+        let vertices = bytemuck::cast_slice(&self.parts.vertices);
+        // SAFETY: the caller's.
+        unsafe {
+            let upload = self.uploads.upload(gl, pass.caps, vertices, &mut self.parts.texels)?;
+            gl.bind_vertex_array(Some(upload.vertex_array));
+            gl.active_texture(glow::TEXTURE3);
+            gl.bind_texture(glow::TEXTURE_2D, Some(upload.texture));
+        }
+        Ok(())
+    }
+
+    /// What the fragment shader reads besides the surface.
+    ///
+    /// # Safety
+    /// The program is in use.
+    unsafe fn set_receiver(&self, pass: &Pass<'_>, program: &Program) {
+        let id = pass.frame.receivers.first().map_or(0, |receiver| receiver.id);
+        let planes: &[f32] = bytemuck::cast_slice(&self.parts.receiver);
+        // SAFETY: the caller's.
+        unsafe {
+            pass.gl.uniform_1_i32(program.uniforms.blockers.as_ref(), 3);
+            pass.gl.uniform_4_f32_slice(program.own[0].as_ref(), planes);
+            pass.gl.uniform_1_u32(program.own[1].as_ref(), id);
+        }
+    }
+}
+
+impl Method for State {
+    unsafe fn begin(&mut self, pass: &Pass<'_>) -> Result<(), Error> {
+        if let Technique::Composite(options) = pass.technique {
+            self.parts.begin(pass.frame, pass.view, options);
+        }
+        Ok(())
+    }
+
+    unsafe fn draw_visibility(&mut self, pass: &Pass<'_>, batch: &mut Batch<'_>) -> Result<(), Error> {
+        self.parts.pack(batch.lights, pass.view, Drawn::Visibility(batch.tiles));
+        if self.parts.vertices.is_empty() {
+            return Ok(());
+        }
+        let gl = pass.gl;
+        // SAFETY: the caller's.
+        unsafe {
+            self.upload(pass)?;
+            Blend::Min.apply(gl, *pass.caps);
+            for (target, &(first, count)) in batch.masks.iter().zip(&self.parts.groups) {
+                if count > 0 {
+                    gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
+                    let program = pass.use_program(VISIBILITY, pass.mask_offset());
+                    self.set_receiver(pass, program);
+                    gl.draw_arrays(glow::TRIANGLES, first, count);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn painter(&mut self, pass: &Pass<'_>) -> Option<&mut dyn Painter> {
+        match pass.technique {
+            Technique::Composite(options) if paints(options) => Some(self),
+            _ => None,
+        }
+    }
+
+    fn counts(&self) -> (usize, usize) {
+        self.parts.counts
+    }
+
+    unsafe fn delete(&mut self, gl: &glow::Context) {
+        // SAFETY: the caller's.
+        unsafe { self.uploads.delete(gl) };
+    }
+}
+
+impl Painter for State {
+    unsafe fn paint(&mut self, pass: &Pass<'_>, encoding: Encoding) -> Result<(), Error> {
+        let gl = pass.gl;
+        // In batches, so that memory does not depend on the number of lights.
+        for lights in pass.frame.lights.chunks(BATCH_LIGHTS) {
+            self.parts.pack(lights, pass.view, Drawn::Shade(encoding));
+            if self.parts.vertices.is_empty() {
+                continue;
+            }
+            // SAFETY: the caller's.
+            unsafe {
+                self.upload(pass)?;
+                Blend::Over.apply(gl, *pass.caps);
+                let program = pass.use_program(PAINT, [0, 0]);
+                self.set_receiver(pass, program);
+                // Primitives are drawn in their order: the later one over the earlier.
+                gl.draw_arrays(glow::TRIANGLES, 0, self.parts.vertices.len() as i32);
+            }
+        }
+        Ok(())
+    }
+}
