@@ -144,3 +144,41 @@ fn gallery_scenes_are_classified_right() {
     });
     classify("the gallery", Api::Gl33, scenes);
 }
+
+/// Eyes far from the target, close to the floor, in its plane and below it; a light in the floor's plane, one just over
+/// it and a sun below.
+#[test]
+fn awkward_views_are_classified_right() {
+    let cameras = [
+        ("far target", [0.0, 1.5, 3.0], [0.0, -1000.0, -5000.0]),
+        ("at the floor", [0.0, 1e-3, 4.0], [0.0, 0.4, 0.0]),
+        ("in the floor", [0.0, 0.0, 4.0], [0.0, 0.4, 0.0]),
+        ("below the floor", [0.0, -2.0, 4.0], [0.0, 0.0, 0.0]),
+        ("along the floor", [0.0, 0.05, 60.0], [0.0, 0.0, 0.0]),
+        ("straight down", [0.0, 4.0, 0.001], [0.0, 0.0, 0.0]),
+    ];
+    let scenes = cameras.into_iter().map(|(name, eye, target)| {
+        let text = format!(
+            r#"
+            camera = {{ eye = {eye:?}, target = {target:?} }}
+            image = {{ width = 320, height = 180 }}
+            light = [
+              {{ name = "above", type = "point", position = [1.5, 4.0, 1.0], intensity = 1.0 }},
+              {{ name = "level", type = "point", position = [3.0, 0.0, 2.0], intensity = 1.0 }},
+              {{ name = "low", type = "point", position = [3.0, 0.3, 2.0], intensity = 1.0 }},
+              {{ name = "below", type = "directional", direction = [0.3, 1.0, 0.1], intensity = 1.0 }},
+            ]
+            object = [
+              {{ name = "floor", shape = {{ type = "plane" }} }},
+              {{ name = "wall", shape = {{ type = "rectangle", width = 4.0, depth = 3.0 }},
+                 translation = [0.0, 0.5, -2.0], rotation = [0.7071068, 0.0, 0.0, 0.7071068] }},
+              {{ name = "ball", shape = {{ type = "sphere", radius = 0.7 }}, translation = [0.0, 0.9, 0.0] }},
+              {{ name = "cone", shape = {{ type = "cone", radius = 0.5, height = 1.0 }}, translation = [-1.2, 0.5, 0.3] }},
+              {{ name = "low", shape = {{ type = "sphere", radius = 0.4 }}, translation = [0.3, -0.9, 0.2] }},
+            ]
+            "#
+        );
+        (name.to_owned(), Scene::parse(&text, name.as_ref()).expect("the scene is right"))
+    });
+    classify("awkward views", Api::Gl33, scenes);
+}

@@ -37,8 +37,10 @@ pub(super) struct Posed {
     id: u32,
     /// Of the box round the mesh: homogeneous, world space.
     corners: [DVec4; 8],
-    /// For an infinite plane.
-    plane: Option<Plane>,
+    /// Whether it is an infinite plane.
+    infinite: bool,
+    /// The plane that it lies in, if it is flat in its own axes.
+    flat: Option<Plane>,
 }
 
 /// One caster's shadow on one receiver.
@@ -75,13 +77,17 @@ impl Plan {
         self.counts = (0, 0);
         for caster in casters(pass) {
             // SAFETY: the caller's.
-            unsafe { self.pose(pass, meshes, caster.mesh, caster.model, caster.id, None)? };
+            unsafe { self.pose(pass, meshes, caster.mesh, caster.model, caster.id)? };
+            let posed = self.posed.last_mut().expect("posed above");
+            posed.flat = flat(&posed.corners);
         }
         for (plane, id) in planes(pass) {
             if plane.normal.is_finite() && plane.offset.is_finite() && plane.normal != DVec3::ZERO {
                 let model = plane_model(&plane, pass.view);
                 // SAFETY: the caller's.
-                unsafe { self.pose(pass, meshes, &PYRAMID, model, id, Some(plane))? };
+                unsafe { self.pose(pass, meshes, &PYRAMID, model, id)? };
+                let posed = self.posed.last_mut().expect("posed above");
+                (posed.infinite, posed.flat) = (true, Some(plane));
             }
         }
         Ok(())
@@ -96,7 +102,6 @@ impl Plan {
         mesh: &TriangleMesh,
         model: DMat4,
         id: u32,
-        plane: Option<Plane>,
     ) -> Result<(), Error> {
         // SAFETY: the caller's.
         let buffers = unsafe { meshes.get(pass.gl, mesh)? };
@@ -107,7 +112,7 @@ impl Plan {
             model * corner.extend(1.0)
         });
         let (vertex_array, count) = (buffers.vertex_array, buffers.count);
-        self.posed.push(Posed { vertex_array, count, model, id, corners, plane });
+        self.posed.push(Posed { vertex_array, count, model, id, corners, infinite: false, flat: None });
         Ok(())
     }
 
@@ -139,7 +144,11 @@ impl Plan {
                 for (caster, posed) in self.posed.iter().enumerate() {
                     self.counts.0 += 1;
                     let own = posed.id != 0 && posed.id == placed.id;
-                    if own || posed.hides_its_own_shadow(l, eye) || !posed.is_reached(source) {
+                    if own
+                        || posed.is_edge_on(l)
+                        || posed.hides_its_own_shadow(l, eye)
+                        || !posed.is_reached(source)
+                    {
                         continue;
                     }
                     let shadow = posed.corners.map(|c| flatten * c);
@@ -168,6 +177,15 @@ impl Plan {
     }
 }
 
+/// The plane of a box without height along one of its edges; `corners` by bit.
+fn flat(corners: &[DVec4; 8]) -> Option<Plane> {
+    let corner = |i: usize| corners[i].truncate();
+    let edges = [1, 2, 4].map(|i| corner(i) - corner(0));
+    let thin = edges.iter().position(|edge| *edge == DVec3::ZERO)?;
+    let normal = edges[(thin + 1) % 3].cross(edges[(thin + 2) % 3]).try_normalize()?;
+    Some(Plane::through(corner(0), normal))
+}
+
 /// Where a caster's shadow is on a plane.
 enum Reach {
     /// Nowhere.
@@ -182,13 +200,19 @@ impl Posed {
     /// Whether nothing that is seen can lie in the shadow: an opaque infinite plane, drawn by the host, with the eye
     /// on the light's side hides all that it takes the light from.
     fn hides_its_own_shadow(&self, light: DVec4, eye: DVec4) -> bool {
-        let Some(plane) = self.plane else { return false };
-        self.id != 0 && eye.w > 0.0 && height(&plane, light) * height(&plane, eye) > 0.0
+        let Some(plane) = self.flat else { return false };
+        self.infinite && self.id != 0 && eye.w > 0.0 && height(&plane, light) * height(&plane, eye) > 0.0
+    }
+
+    /// Whether it is flat and the light in its plane, which then takes nothing: its matrix would make of the light
+    /// no point at all, and of what is round it, by rounding, anything.
+    fn is_edge_on(&self, light: DVec4) -> bool {
+        self.flat.is_some_and(|plane| facing(&plane, light).is_none())
     }
 
     /// Whether any light arrives at the caster: false only outside a spot's cone.
     fn is_reached(&self, light: &Light) -> bool {
-        if self.plane.is_some() {
+        if self.infinite {
             return true;
         }
         let [first, .., last] = self.corners.map(DVec4::truncate);
@@ -209,7 +233,7 @@ impl Posed {
         if heights.iter().all(|&h| h <= 0.0) || shadow.iter().all(|s| s.w <= 0.0) {
             return Reach::Nothing;
         }
-        let bounded = self.plane.is_none() && shadow.iter().all(|s| s.w * FARTHEST > 1.0);
+        let bounded = !self.infinite && shadow.iter().all(|s| s.w * FARTHEST > 1.0);
         if !bounded {
             return Reach::Far;
         }

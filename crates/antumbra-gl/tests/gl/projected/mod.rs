@@ -1,18 +1,15 @@
 //! The technique `projected`: what falls on its receivers, and what must not.
 
+mod host;
+mod paint;
+
 use crate::context::{Gl, in_each_api};
-use crate::leaks::live;
 use crate::lights::{many_lights, overlay};
-use crate::occluders::nonsense;
-use crate::odd_host::OddHost;
 use crate::samples;
 use crate::shot::{Shot, VIEWPORT};
-use crate::snapshot::{assert_same, snapshot};
 use crate::world::{ONE_OF_EACH, World};
-use antumbra_gl::technique::Part;
 use antumbra_gl::{
-    Area, Camera, DepthFormat, Encoding, Error, Frame, Light, Occluder, Receiver, ReceiverShape, Renderer,
-    Technique,
+    Camera, DepthFormat, Encoding, Frame, Light, Occluder, Receiver, ReceiverShape, Renderer, Technique,
 };
 use antumbra_math::{Plane, Rectangle};
 use glam::{DMat4, DVec3, Vec3};
@@ -125,6 +122,21 @@ fn only_what_is_between_plane_and_light_casts() {
             ("a light below the floor", &point([2.0, -1.0, 1.0]), ball, [0.0, 0.2, 0.0], false),
             ("a light just over the floor", &point([2.0, 0.02, 1.0]), ball, [0.0, 0.2, 0.0], true),
             ("a far light", &point([2e5, 4e5, 1e5]), ball, [0.0, 1.0, 0.0], true),
+            (
+                "a light on a sheet",
+                &high,
+                "type = \"rectangle\", width = 1.0, depth = 1.0",
+                [0.5, 3.0, -1.5],
+                false,
+            ),
+            ("a light level with a disc", &high, "type = \"disc\", radius = 0.5", [0.5, 3.0, -3.5], false),
+            (
+                "a light on a triangle",
+                &high,
+                "type = \"triangle\", vertices = [[-1, -1, 0], [2, -1, 0], [0, 2, 0]]",
+                [0.4, 2.9, -1.5],
+                false,
+            ),
             ("a light on the ball", &point([0.0, 1.5, 0.0]), ball, [0.0, 1.0, 0.0], true),
         ] {
             let world = over_floor(light, &object(shape, at));
@@ -161,6 +173,7 @@ fn infinite_planes_cast() {
         let sun = Light::directional([-1.0, -1.0, -0.2], Vec3::ONE);
         let above = Light::point(high, Vec3::ONE);
         let (wall, slope) = (DVec3::X, DVec3::new(0.4, 1.0, 0.5));
+        // A plane with the light in it is edge-on, and so are flat shapes; the one with the light on it too.
         for (what, light, through, normal) in [
             ("a wall", above, [-0.4, 0.0, 0.0], wall),
             ("a wall from behind", above, [-0.4, 0.0, 0.0], -wall),
@@ -173,6 +186,9 @@ fn infinite_planes_cast() {
             ("a ceiling over the light", above, [0.0, 3.5, 0.0], DVec3::Y),
             ("a ceiling in the sun", sun, [0.0, 3.5, 0.0], DVec3::NEG_Y),
             ("the floor itself", above, [0.0, 0.0, 0.0], DVec3::Y),
+            ("a wall through the light", above, [1.5, 0.0, 0.0], wall),
+            ("a slope through the light", above, [1.5, 3.0, 0.0], slope),
+            ("a ceiling through the light", above, [0.0, 3.0, 0.0], DVec3::Y),
         ] {
             let world = over_floor(&point([1.5, 3.0, 0.0]), "");
             let shot = Shot::new(gl, &world);
@@ -187,10 +203,11 @@ fn infinite_planes_cast() {
                 let light_side = plane.normal.dot(l.truncate()) - plane.offset * l.w;
                 let height = plane.height(seen.point);
                 // Two pixels of the farthest floor in sight; the floor itself has no other side.
-                if height.abs() < 0.2 && what != "the floor itself" {
+                let nothing = what == "the floor itself" || what.ends_with("through the light");
+                if height.abs() < 0.2 && !nothing {
                     continue;
                 }
-                let lit = what == "the floor itself" || height * light_side > 0.0;
+                let lit = nothing || height * light_side > 0.0;
                 assert_eq!(masks[0][i], if lit { 255 } else { 0 }, "{what}: the floor at {}", seen.point);
                 judged += 1;
             }
@@ -330,48 +347,6 @@ fn surfaces_that_receive_nothing_and_casters_of_the_receivers_own_id_are_left_ou
     });
 }
 
-#[test]
-fn casters_and_receivers_that_are_none_do_nothing() {
-    in_each_api(|gl| {
-        let world = World::one_of_each();
-        let shot = Shot::new(gl, &world);
-        let mut renderer = renderer(gl, "projected");
-        let alone = shot.masks(&mut renderer, &shot.frame());
-        let casters = nonsense();
-        let masks = shot.masks(&mut renderer, &Frame { occluders: &casters, ..shot.frame() });
-        assert!(masks.iter().flatten().all(|&m| m == 255), "nonsense casts nothing");
-        let mut receivers: Vec<Receiver> = [f64::NAN, f64::INFINITY, 0.0]
-            .into_iter()
-            .flat_map(|bad| {
-                let bad = DVec3::splat(bad);
-                let rectangle = |center, half_right, half_forward| {
-                    ReceiverShape::Rectangle(Rectangle { center, half_right, half_forward })
-                };
-                [
-                    rectangle(DVec3::Y, bad, DVec3::Z),
-                    rectangle(DVec3::Y, DVec3::X, bad),
-                    rectangle(bad / bad, DVec3::X, DVec3::Z),
-                    ReceiverShape::Plane(Plane { normal: bad, offset: 0.0 }),
-                    ReceiverShape::Plane(Plane { normal: DVec3::Y, offset: bad.x / bad.x }),
-                ]
-            })
-            .map(|shape| Receiver { shape, id: 1 })
-            .collect();
-        let masks = shot.masks(&mut renderer, &Frame { receivers: &receivers, ..shot.frame() });
-        assert!(masks.iter().flatten().all(|&m| m == 255), "nothing falls on nonsense");
-        receivers.extend(&world.receivers);
-        let mut occluders = nonsense();
-        occluders.extend(&world.occluders);
-        let frame = Frame { receivers: &receivers, occluders: &occluders, ..shot.frame() };
-        assert!(shot.masks(&mut renderer, &frame) == alone, "nor is it in the way of the others");
-        let bad = DVec3::new(0.0, f64::NAN, 1.0);
-        let lights = [Light::point(bad, Vec3::ONE), Light::directional(bad, Vec3::ONE)];
-        let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
-        assert!(masks.iter().flatten().all(|&m| m == 255), "lights that are nowhere take nothing");
-        gl.assert_no_complaint("nonsense");
-    });
-}
-
 /// A parallel view, in a viewport that is not at the corner.
 #[test]
 fn any_camera_will_do() {
@@ -421,170 +396,5 @@ fn every_sample_has_its_own_shadow() {
             let dark = assert_right(&world, shot, &masks, "a sample");
             assert!(dark > 200, "there are shadows: {dark}");
         }
-    });
-}
-
-/// How often each value is in a picture that was white.
-fn values(picture: &[[u8; 4]]) -> Vec<(u8, usize)> {
-    let mut counts = [0; 256];
-    picture.iter().for_each(|texel| counts[usize::from(texel[1])] += 1);
-    (0..=255).map(|value| (value, counts[usize::from(value)])).filter(|(_, n)| *n > 0).collect()
-}
-
-/// Half of white, and half of that, in 8 bits, each time rounded either way.
-const HALF: [u8; 2] = [127, 128];
-const QUARTER: [u8; 2] = [63, 64];
-
-/// Paint is blended once a light with the stencil, and once a triangle without it: a ball's front and back make a
-/// quarter of half.
-#[test]
-fn paint_is_blended_twice_without_the_stencil_alone() {
-    in_each_api(|gl| {
-        let balls = object("type = \"sphere\", radius = 0.4", [-0.9, 1.0, 0.0])
-            + &object("type = \"rectangle\", width = 0.8, depth = 0.8", [0.9, 1.2, 0.0])
-                .replace("\"o\"", "\"sheet\"");
-        let world = over_floor(&point([0.0, 5.0, 1.0]), &balls);
-        let shot = Shot::new(gl, &world);
-        let frame = Frame { receivers: &world.receivers[..1], ..shot.frame() };
-        let gamma = Encoding::Gamma(2.2);
-        let once = values(&overlay(gl, &mut renderer(gl, "projected:shade=paper"), &frame, gamma));
-        assert!(once.len() == 2 && HALF.contains(&once[0].0) && once[1].0 == 255, "half and whole: {once:?}");
-        let off = "projected:shade=paper:stencil=off";
-        let twice = values(&overlay(gl, &mut renderer(gl, off), &frame, gamma));
-        let count = |of: &[(u8, usize)], what: [u8; 2]| -> usize {
-            of.iter().filter(|(v, _)| what.contains(v)).map(|(_, n)| n).sum()
-        };
-        assert!(count(&twice, QUARTER) > 100, "the ball's front and back: {twice:?}");
-        assert!(count(&twice, HALF) > 100, "the sheet has one side: {twice:?}");
-        let shadow = once[0].1;
-        let all: usize = twice.iter().filter(|(v, _)| *v < 255).map(|(_, n)| n).sum();
-        assert_eq!(all, shadow, "the same pixels");
-        // Linear pixels are displayed as their root: half of what is displayed is 0.5^2.2 of them.
-        let linear =
-            values(&overlay(gl, &mut renderer(gl, "projected:shade=paper"), &frame, Encoding::Linear));
-        let expected = (0.5f32.powf(2.2) * 255.0).round() as u8;
-        assert!(linear.len() == 2 && linear[0].0.abs_diff(expected) <= 1, "{linear:?}, not {expected}");
-    });
-}
-
-/// Two lights darken twice where both are blocked; six lights take two rounds.
-#[test]
-fn paint_is_blended_once_for_each_light() {
-    in_each_api(|gl| {
-        let ball = object("type = \"sphere\", radius = 0.4", [0.0, 1.0, 0.0]);
-        let world = over_floor(&point([0.0, 5.0, 1.0]), &ball);
-        let shot = Shot::new(gl, &world);
-        for count in [2, 6] {
-            let lights = vec![world.lights[0]; count];
-            let frame = Frame { lights: &lights, ..shot.frame() };
-            let mut renderer = renderer(gl, "projected:shade=paper");
-            let found = values(&overlay(gl, &mut renderer, &frame, Encoding::Gamma(2.2)));
-            let expected = 255.0 * 0.5f64.powi(count as i32);
-            // Each rounding to 8 bits is off by half a step, which the next ones halve.
-            let off = (f64::from(found[0].0) - expected).abs();
-            assert!(found.len() == 2 && off <= 1.0, "{count} lights: {found:?}, not {expected}");
-        }
-    });
-}
-
-/// Without the stencil a shadow goes on over the edge of its receiver, into the void and onto what is behind.
-#[test]
-fn shadows_overrun_their_receivers_without_the_stencil() {
-    in_each_api(|gl| {
-        let camera = "camera = { eye = [1.0, 3.5, 7.0], target = [0.0, 0.6, 0.0] }\n";
-        let table = object("type = \"rectangle\", width = 1.6, depth = 1.2", [0.0, 0.0, 0.0])
-            .replace("\"o\"", "\"table\"");
-        let ball = object("type = \"sphere\", radius = 0.5", [0.7, 1.5, 0.0]);
-        let world = World::parse(&[camera, &point([0.9, 4.5, -0.5]), &table, &ball].concat());
-        let shot = Shot::new(gl, &world);
-        let painted = |technique: &str| -> Vec<bool> {
-            let picture = overlay(gl, &mut renderer(gl, technique), &shot.frame(), Encoding::Linear);
-            picture.iter().map(|texel| texel[0] < 255).collect()
-        };
-        let [on, off] = ["projected:shade=paper", "projected:shade=paper:stencil=off"].map(painted);
-        let seen = |i: &usize, what: Option<u32>| shot.seen[*i].map(|s| s.primitive) == what;
-        let count = |of: &[bool], what| (0..of.len()).filter(|i| of[*i] && seen(i, what)).count();
-        assert!(count(&on, Some(0)) > 50, "a shadow on the table: {}", count(&on, Some(0)));
-        assert_eq!(count(&on, Some(0)), count(&off, Some(0)), "the same shadow on the table");
-        assert_eq!(count(&on, None) + count(&on, Some(1)), 0, "and nowhere else");
-        assert!(count(&off, None) > 50, "in the void");
-        assert_eq!(count(&off, Some(1)), 0, "but not over what is in front");
-    });
-}
-
-/// State, errors, objects and allocations, however it draws.
-#[test]
-fn every_way_of_drawing_leaves_no_trace() {
-    in_each_api(|gl| {
-        let world = many_lights(6);
-        let shot = Shot::new(gl, &world);
-        for technique in ["projected", "projected:shade=paper", "projected:shade=paper:stencil=off"] {
-            let host = OddHost::new(gl, samples::SIZE);
-            let (before, objects) = (snapshot(gl), live(&gl.gl));
-            let mut renderer = renderer(gl, technique);
-            let mut draw = || {
-                renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
-                assert_same(&before, &snapshot(gl), technique);
-                let inside = || assert_same(&before, &snapshot(gl), technique);
-                renderer.masks(&shot.frame(), |_| inside()).expect("the frame is right");
-                assert_same(&before, &snapshot(gl), technique);
-                gl.assert_no_complaint(technique);
-                let frame = shot.frame();
-                let counted = allocation_counter::measure(|| {
-                    renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
-                    renderer.masks(&frame, |_| {}).expect("the frame is right");
-                });
-                (counted.count_total, live(&gl.gl))
-            };
-            let first = draw();
-            assert!(
-                draw() == (0, first.1) && first.1 != objects,
-                "{technique}: a steady frame makes nothing"
-            );
-            drop(renderer);
-            assert_eq!(live(&gl.gl), objects, "{technique}: objects outlive the renderer");
-            host.calm_down(gl);
-        }
-    });
-}
-
-#[test]
-fn what_it_cannot_do_is_refused() {
-    in_each_api(|gl| {
-        let world = World::one_of_each();
-        let shot = Shot::new(gl, &world);
-        let refused = |technique: &str, frame: &Frame<'_>| match renderer(gl, technique).masks(frame, |_| {})
-        {
-            Err(Error::Refused { technique: "projected", refusal }) => refusal,
-            other => panic!("{technique}: {other:?}"),
-        };
-        let frame = shot.frame();
-        let nowhere = refused("projected", &Frame { receivers: &[], ..frame });
-        assert!(nowhere.part == Part::Receivers && nowhere.reason.contains("none to fall on"), "{nowhere:?}");
-        let area = world.lights[0].with_area(Area::Sphere { radius: 0.1 });
-        let lights = [world.lights[1], area];
-        assert_eq!(refused("projected", &Frame { lights: &lights, ..frame }).part, Part::Light(1), "an area");
-        let options = refused("projected:stencil=off", &frame);
-        assert!(options.part == Part::Options && options.reason.contains("shade=paper"), "{options:?}");
-        renderer(gl, "projected:shade=paper:stencil=off").masks(&frame, |_| {}).expect("for teaching");
-    });
-}
-
-#[test]
-fn counts_are_of_casters_receivers_and_triangles() {
-    in_each_api(|gl| {
-        let text = ONE_OF_EACH.replace("casts_shadow = true", "");
-        let world = World::parse(&text);
-        let shot = Shot::new(gl, &world);
-        let mut renderer = renderer(gl, "projected");
-        // The triangle alone, over a floor that two lights and a spot shine on.
-        let triangle = [*world.occluders.last().expect("a triangle")];
-        let frame = Frame { occluders: &triangle, receivers: &world.receivers[..1], ..shot.frame() };
-        renderer.masks(&frame, |_| {}).expect("the frame is right");
-        let stats = renderer.stats();
-        assert_eq!(stats.pairs, 3, "three lights, a caster and a receiver");
-        assert!((1..=3).contains(&stats.polygons), "one triangle for each light in sight: {stats:?}");
-        renderer.masks(&Frame { receivers: &world.receivers, ..frame }, |_| {}).expect("the frame is right");
-        assert_eq!(renderer.stats().pairs, 6, "and two receivers");
     });
 }
