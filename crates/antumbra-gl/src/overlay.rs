@@ -68,8 +68,14 @@ impl Overlay {
     }
 
     /// Compiles the programs for such surfaces, unless it was done.
-    pub(crate) fn warm_up(&mut self, gl: &glow::Context, caps: &Caps, variant: Variant) -> Result<(), Error> {
-        self.programs.ensure(gl, caps, &OVERLAY_PROGRAMS, variant)
+    pub(crate) fn warm_up(
+        &mut self,
+        gl: &glow::Context,
+        caps: &Caps,
+        variant: Variant,
+        lights: &[Light],
+    ) -> Result<(), Error> {
+        self.programs.ensure(gl, caps, &OVERLAY_PROGRAMS, variant, lights)
     }
 
     /// Makes and clears the sums over batches, for frames of several.
@@ -118,7 +124,8 @@ impl Overlay {
             return Ok(());
         }
         let samples = frame.surface.samples;
-        let program = &self.programs.of(Variant::of(&frame.surface))[pass as usize];
+        let programs = self.programs.of(Variant::of(&frame.surface));
+        let program = programs[pass.index(lights)].as_ref().expect("compiled for the frame's lights");
         let [x, y, width, height] = view.viewport;
         let own_target = match pass {
             ProgramId::Taken => self.taken.as_ref(),

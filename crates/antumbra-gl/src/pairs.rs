@@ -2,6 +2,7 @@
 
 use crate::proxy::ProxyBuilder;
 use crate::scenery::{Light, Occluder};
+use crate::soft_pairs::{AreaLight, SOFT_SHAPES};
 use crate::tiles::TileGrid;
 use crate::view::View;
 use antumbra_math::blocking::{Blocker, Blockers};
@@ -35,8 +36,10 @@ pub(crate) struct Draw {
     pub(crate) count: i32,
 }
 
-/// Kinds of blocker: sphere, disc, polygon.
-const KINDS: usize = 3;
+/// Kinds of blocker of lights without extent: sphere, disc, polygon.
+pub(crate) const HARD_KINDS: usize = 3;
+/// All kinds: after those, each shape past a ball, and past a flat light.
+const KINDS: usize = HARD_KINDS + 2 * SOFT_SHAPES;
 const LISTS: usize = KINDS * (BATCH_LIGHTS / GROUP_LIGHTS);
 
 /// Packs batches; keeps its memory from one to the next.
@@ -83,7 +86,11 @@ impl PairBuilder {
             if light.intensity == glam::Vec3::ZERO {
                 continue; // takes nothing away
             }
-            self.pack_light(i, &light.place.transformed(&view.view), view, tiles);
+            let place = light.place.transformed(&view.view);
+            match AreaLight::new(light.area, place.homogeneous().truncate(), &view.view) {
+                None => self.pack_light(i, &place, view, tiles),
+                Some(area) => self.pack_area_light(i, &area, &place, view, tiles),
+            }
         }
         self.vertices.clear();
         self.draws.clear();
@@ -121,16 +128,39 @@ impl PairBuilder {
                 tiles.touch(polygon);
                 let first = self.texels.len() as u32;
                 let kind = pack_blocker(blocker, &mut self.texels);
-                let vertex = |p: DVec2| Vertex {
-                    position: clip_position(p, size),
-                    blocker: first * 4 + (index % GROUP_LIGHTS) as u32,
-                    id,
-                };
                 let list = &mut self.lists[index / GROUP_LIGHTS * KINDS + kind];
-                for corners in polygon[1..].windows(2) {
-                    list.extend([polygon[0], corners[0], corners[1]].map(vertex));
-                }
+                pack_polygon(list, polygon, size, first * 4 + (index % GROUP_LIGHTS) as u32, id);
             }
+        }
+    }
+
+    /// `place` is where the light's centre is.
+    fn pack_area_light(
+        &mut self,
+        index: usize,
+        area: &AreaLight,
+        place: &antumbra_math::Light,
+        view: &View,
+        tiles: &mut TileGrid,
+    ) {
+        for &(shape, id, ..) in &self.shapes_vs {
+            self.counts.0 += 1;
+            if area.is_beside(&shape) && hides_its_own_shadow(&shape, id, place) {
+                continue;
+            }
+            let first = self.texels.len();
+            let Some(kind) = area.pack_pair(&shape, &mut self.texels) else { continue };
+            let (outline, origins) = area.outline(&shape);
+            let polygon = self.proxy.bound_from(&outline, id == 0, origins.iter(), view, &self.bounds_vs);
+            if polygon.len() < 3 {
+                self.texels.truncate(first);
+                continue;
+            }
+            self.counts.1 += 1;
+            tiles.touch(polygon);
+            let list = &mut self.lists[index / GROUP_LIGHTS * KINDS + HARD_KINDS + kind];
+            let blocker = first as u32 * 4 + (index % GROUP_LIGHTS) as u32;
+            pack_polygon(list, polygon, view.size(), blocker, id);
         }
     }
 }
@@ -138,6 +168,14 @@ impl PairBuilder {
 /// From pixels of the viewport to clip space.
 pub(crate) fn clip_position(p: DVec2, size: DVec2) -> [f32; 2] {
     (p / size * 2.0 - 1.0).as_vec2().to_array()
+}
+
+/// The triangles of a convex polygon.
+fn pack_polygon(list: &mut Vec<Vertex>, polygon: &[DVec2], size: DVec2, blocker: u32, id: u32) {
+    let vertex = |p: DVec2| Vertex { position: clip_position(p, size), blocker, id };
+    for corners in polygon[1..].windows(2) {
+        list.extend([polygon[0], corners[0], corners[1]].map(vertex));
+    }
 }
 
 /// Whether nothing that is seen can lie in the shape's shadow: an opaque infinite plane, drawn by

@@ -37,8 +37,20 @@ impl ProxyBuilder {
         view: &View,
         bounds_vs: &[Plane],
     ) -> &[DVec2] {
+        self.bound_from(outline, hollow, std::iter::once(light_vs), view, bounds_vs)
+    }
+
+    /// The same for the shadow of a light that is the hull of `lights_vs`.
+    pub(crate) fn bound_from(
+        &mut self,
+        outline: &Outline,
+        hollow: bool,
+        lights_vs: impl Iterator<Item = DVec4>,
+        view: &View,
+        bounds_vs: &[Plane],
+    ) -> &[DVec2] {
         self.hull.clear();
-        let size = DVec2::new(f64::from(view.viewport[2]), f64::from(view.viewport[3]));
+        let size = view.size();
         if matches!(outline, Outline::Everywhere) {
             self.hull.extend([DVec2::ZERO, DVec2::new(size.x, 0.0), size, DVec2::new(0.0, size.y)]);
             return &self.hull;
@@ -47,12 +59,17 @@ impl ProxyBuilder {
         self.away.clear();
         self.rays.clear();
         let clip = |p: DVec3| view.projection * p.extend(1.0);
-        outline.near_end(light_vs, hollow, |p, extends| {
-            self.near.push(clip(p));
-            if extends {
-                self.rays.push((p, p * light_vs.w - light_vs.truncate()));
-            }
-        });
+        for (i, light_vs) in lights_vs.enumerate() {
+            outline.near_end(light_vs, hollow, |p, extends| {
+                // Flat outlines begin at the same points whatever they are thrown from.
+                if i == 0 {
+                    self.near.push(clip(p));
+                }
+                if extends {
+                    self.rays.push((p, p * light_vs.w - light_vs.truncate()));
+                }
+            });
+        }
         match nearest_end(&self.rays, bounds_vs) {
             Some(end) => self.near.extend(self.rays.iter().map(|&(p, d)| clip(p + d * crossing(end, p, d)))),
             None => self.away.extend(self.rays.iter().map(|&(_, d)| view.projection * d.extend(0.0))),

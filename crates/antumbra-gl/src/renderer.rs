@@ -5,7 +5,7 @@ use crate::host_target::{OtherBuffers, refuse_feedback};
 use crate::overlay::{Encoding, HostPicture, Overlay};
 use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS};
 use crate::resources::{Target, TargetFormat};
-use crate::scenery::Light;
+use crate::scenery::{Area, Light};
 use crate::shader::{ProgramId, ProgramSet, Variant};
 use crate::state::StateGuard;
 use crate::technique::{Batch, Method, Pass, Technique};
@@ -60,7 +60,7 @@ pub struct MaskBatch {
     pub first_light: usize,
     /// How many lights.
     pub lights: usize,
-    /// `RGBA8` textures: light `first_light + i` is channel `i % 4` of texture `i / 4`. One texel
+    /// `RGBA8` textures (`RGBA16F` in frames with area lights, where the driver draws to it): light `first_light + i` is channel `i % 4` of texture `i / 4`. One texel
     /// a pixel of the viewport (`texelFetch` with window position minus the viewport's corner),
     /// 1 where the light arrives; multisampled if the surface is. They hold what *cast* shadows
     /// leave: where the surface faces away from the light, it is the host's n·l that is zero.
@@ -116,12 +116,12 @@ impl Renderer {
         self.technique
     }
 
-    /// Compiles the shaders for surfaces like this one, unless it was done: the first frame with
-    /// such a surface does it otherwise.
+    /// Compiles the shaders for surfaces and lights like these, unless it was done: the first frame with
+    /// such a surface, and such kinds of light, does it otherwise.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for surfaces this context cannot read, [`Error::Shader`].
-    pub fn warm_up(&mut self, surface: &Surface) -> Result<(), Error> {
+    pub fn warm_up(&mut self, surface: &Surface, lights: &[Light]) -> Result<(), Error> {
         if surface.samples > 1 && !self.caps.sample_shading() {
             return Err(Error::Unsupported {
                 what: "a multisampled surface",
@@ -136,8 +136,8 @@ impl Renderer {
         }
         let variant = Variant::of(surface);
         let loaded = self.loaded[self.technique.index()].as_mut().expect("set_technique has made it");
-        loaded.programs.ensure(&self.gl, &self.caps, self.technique.programs(), variant)?;
-        self.overlay.warm_up(&self.gl, &self.caps, variant)
+        loaded.programs.ensure(&self.gl, &self.caps, self.technique.programs(), variant, lights)?;
+        self.overlay.warm_up(&self.gl, &self.caps, variant, lights)
     }
 
     /// What the context can do.
@@ -243,11 +243,13 @@ impl Renderer {
     /// # Safety
     /// A [`StateGuard`] is alive.
     unsafe fn prepare(&mut self, frame: &Frame<'_>, view: &View) -> Result<(), Error> {
-        self.warm_up(&frame.surface)?;
+        self.warm_up(&frame.surface, frame.lights)?;
         let size = (view.viewport[2], view.viewport[3]);
+        let soft = frame.lights.iter().any(|light| light.area != Area::None) && self.caps.float_targets();
+        let format = if soft { TargetFormat::Rgba16F } else { TargetFormat::Rgba8 };
         for slot in &mut self.visibility {
             // SAFETY: the caller's.
-            unsafe { Target::ensure(slot, &self.gl, TargetFormat::Rgba8, size, frame.surface.samples)? };
+            unsafe { Target::ensure(slot, &self.gl, format, size, frame.surface.samples)? };
         }
         self.stats = Stats::default();
         self.frame_tiles.reset(view.size());

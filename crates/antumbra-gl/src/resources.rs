@@ -10,6 +10,7 @@ pub(crate) struct Target {
     width: i32,
     height: i32,
     samples: u32,
+    format: TargetFormat,
 }
 
 /// What a target stores.
@@ -17,6 +18,8 @@ pub(crate) struct Target {
 pub(crate) enum TargetFormat {
     /// 8 bits a channel, for hard visibilities.
     Rgba8,
+    /// float16, for visibilities of area lights: 8 bits of a penumbra show as bands.
+    Rgba16F,
     /// float32, for sums.
     Rgba32F,
 }
@@ -38,7 +41,10 @@ impl Target {
         (width, height): (i32, i32),
         samples: u32,
     ) -> Result<(), Error> {
-        if slot.as_ref().is_some_and(|t| (t.width, t.height, t.samples) == (width, height, samples)) {
+        if slot
+            .as_ref()
+            .is_some_and(|t| (t.width, t.height, t.samples, t.format) == (width, height, samples, format))
+        {
             return Ok(());
         }
         // SAFETY: the caller's; every object is deleted if the next one cannot be made.
@@ -56,6 +62,7 @@ impl Target {
             };
             let internal = match format {
                 TargetFormat::Rgba8 => glow::RGBA8,
+                TargetFormat::Rgba16F => glow::RGBA16F,
                 TargetFormat::Rgba32F => glow::RGBA32F,
             };
             let kind = if samples > 1 { glow::TEXTURE_2D_MULTISAMPLE } else { glow::TEXTURE_2D };
@@ -73,7 +80,7 @@ impl Target {
                 Some(texture),
                 0,
             );
-            let target = Self { texture, framebuffer, width, height, samples };
+            let target = Self { texture, framebuffer, width, height, samples, format };
             if gl.check_framebuffer_status(glow::DRAW_FRAMEBUFFER) != glow::FRAMEBUFFER_COMPLETE {
                 target.delete(gl);
                 return Err(refused());
@@ -99,7 +106,11 @@ impl Target {
 /// # Safety
 /// A texture of this context is bound to `TEXTURE_2D`.
 unsafe fn texture_storage(gl: &glow::Context, internal: u32, width: i32, height: i32) {
-    let kind = if internal == glow::RGBA8 { glow::UNSIGNED_BYTE } else { glow::FLOAT };
+    let kind = match internal {
+        glow::RGBA8 => glow::UNSIGNED_BYTE,
+        glow::RGBA16F => glow::HALF_FLOAT,
+        _ => glow::FLOAT,
+    };
     let none = glow::PixelUnpackData::Slice(None);
     // SAFETY: the caller's; no memory of ours is read.
     unsafe {

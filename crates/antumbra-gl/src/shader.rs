@@ -1,6 +1,7 @@
 //! The shader programs: every permutation is data in a list, compiled when it is first needed.
 
 use crate::frame::Surface;
+use crate::scenery::{Area, Light};
 use crate::{Caps, Error};
 use glow::HasContext;
 
@@ -20,6 +21,35 @@ pub(crate) struct ProgramSource {
     pub(crate) fragment: Stage,
     /// Names of uniforms of its own, found in [`Program::own`] by their place in this list.
     pub(crate) uniforms: &'static [&'static str],
+    /// The lights it is for.
+    pub(crate) lights: LightKind,
+}
+
+/// The kinds of light that have programs of their own: what they cost to compile is spent when they are there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum LightKind {
+    /// Programs that every frame needs.
+    Any,
+    /// Glowing balls.
+    Ball,
+    /// Discs and rectangles.
+    Flat,
+}
+
+impl LightKind {
+    /// The kind of one light.
+    pub(crate) fn of(light: &Light) -> Self {
+        match light.area {
+            Area::None => Self::Any,
+            Area::Sphere { .. } => Self::Ball,
+            Area::Disc { .. } | Area::Rectangle { .. } => Self::Flat,
+        }
+    }
+
+    /// The last of the kinds among several lights, in the order above.
+    pub(crate) fn among(lights: &[Light]) -> Self {
+        lights.iter().map(Self::of).max().unwrap_or(Self::Any)
+    }
 }
 
 /// A pixel's footprint, and how much of it a half-plane covers.
@@ -28,6 +58,8 @@ pub(crate) const COVERAGE: &str = include_str!("shaders/coverage.glsl");
 pub(crate) const SURFACE: &str = include_str!("shaders/surface.glsl");
 /// The vertex stage of passes over tiles of the viewport.
 pub(crate) const SCREEN: &str = include_str!("shaders/screen.vert.glsl");
+/// Lights with an area as a point sees them.
+pub(crate) const AREA: &str = include_str!("shaders/area.glsl");
 const LIGHTS: &str = include_str!("shaders/lights.glsl");
 const IRRADIANCE: &str = include_str!("shaders/irradiance.frag.glsl");
 const RATIO: &str = include_str!("shaders/ratio.frag.glsl");
@@ -36,12 +68,14 @@ const fn screen_program(
     name: &'static str,
     defines: &'static str,
     parts: &'static [&'static str],
+    lights: LightKind,
 ) -> ProgramSource {
     ProgramSource {
         name,
         vertex: Stage { defines: "", parts: &[SCREEN] },
         fragment: Stage { defines, parts },
         uniforms: &[],
+        lights,
     }
 }
 
@@ -80,21 +114,46 @@ impl Variant {
 
 /// The programs of the overlay, whatever the technique, in the order of [`ProgramId`]. Those of the techniques
 /// are listed in their files.
-pub(crate) const OVERLAY_PROGRAMS: [ProgramSource; 4] = [
-    screen_program("overlay", "#define OVERLAY\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
-    screen_program("taken", "#define TAKEN\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
-    screen_program("all", "#define ALL\n", &[COVERAGE, SURFACE, LIGHTS, IRRADIANCE]),
-    screen_program("ratio", "", &[COVERAGE, SURFACE, RATIO]),
+pub(crate) const OVERLAY_PROGRAMS: [ProgramSource; 10] = [
+    screen_program("overlay", "#define OVERLAY\n", SUMS, LightKind::Any),
+    screen_program("taken", "#define TAKEN\n", SUMS, LightKind::Any),
+    screen_program("all", "#define ALL\n", SUMS, LightKind::Any),
+    screen_program("overlay, balls", "#define BALL_LIGHTS\n#define OVERLAY\n", SUMS, LightKind::Ball),
+    screen_program("taken, balls", "#define BALL_LIGHTS\n#define TAKEN\n", SUMS, LightKind::Ball),
+    screen_program("all, balls", "#define BALL_LIGHTS\n#define ALL\n", SUMS, LightKind::Ball),
+    screen_program("overlay, flat lights", "#define FLAT_LIGHTS\n#define OVERLAY\n", SUMS, LightKind::Flat),
+    screen_program("taken, flat lights", "#define FLAT_LIGHTS\n#define TAKEN\n", SUMS, LightKind::Flat),
+    screen_program("all, flat lights", "#define FLAT_LIGHTS\n#define ALL\n", SUMS, LightKind::Flat),
+    screen_program("ratio", "", &[COVERAGE, SURFACE, RATIO], LightKind::Any),
 ];
 
-/// Indices into [`OVERLAY_PROGRAMS`].
+/// The parts of a pass that sums over lights.
+const SUMS: &[&str] = &[COVERAGE, SURFACE, AREA, LIGHTS, IRRADIANCE];
+
+/// The passes of the overlay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(usize)]
 pub(crate) enum ProgramId {
+    /// The factor on the host's pixels, of one batch.
     Overlay,
+    /// What shadows take, to be summed.
     Taken,
+    /// What lights send, to be summed.
     All,
+    /// The factor from the sums.
     Ratio,
+}
+
+impl ProgramId {
+    /// The place in [`OVERLAY_PROGRAMS`] for these lights: what area lights send costs more to find.
+    pub(crate) fn index(self, lights: &[Light]) -> usize {
+        let kind = LightKind::among(lights) as usize;
+        match self {
+            Self::Overlay => 3 * kind,
+            Self::Taken => 3 * kind + 1,
+            Self::All => 3 * kind + 2,
+            Self::Ratio => 9,
+        }
+    }
 }
 
 impl ProgramSource {
@@ -130,30 +189,37 @@ pub(crate) struct Program {
     pub(crate) own: Vec<Option<glow::UniformLocation>>,
 }
 
-/// Programs of one list for each variant, compiled when a variant is first asked for.
+/// Programs of one list for each variant, compiled when they are first asked for.
 #[derive(Default)]
 pub(crate) struct ProgramSet {
-    variants: [Vec<Program>; Variant::COUNT],
+    variants: [Vec<Option<Program>>; Variant::COUNT],
 }
 
 impl ProgramSet {
-    /// Compiles the programs of a variant, unless it was done.
+    /// Compiles the programs of a variant that such lights need, unless it was done.
     pub(crate) fn ensure(
         &mut self,
         gl: &glow::Context,
         caps: &Caps,
         sources: &[ProgramSource],
         variant: Variant,
+        lights: &[Light],
     ) -> Result<(), Error> {
         let programs = &mut self.variants[variant.index()];
-        while programs.len() < sources.len() {
-            programs.push(Program::new(gl, caps, &sources[programs.len()], variant)?);
+        if programs.is_empty() {
+            programs.extend(sources.iter().map(|_| None));
+        }
+        let has = |kind| lights.iter().any(|light| LightKind::of(light) == kind);
+        for (slot, source) in programs.iter_mut().zip(sources).filter(|(slot, _)| slot.is_none()) {
+            if source.lights == LightKind::Any || has(source.lights) {
+                *slot = Some(Program::new(gl, caps, source, variant)?);
+            }
         }
         Ok(())
     }
 
-    /// The programs of a variant, in the order of their list; none before [`Self::ensure`].
-    pub(crate) fn of(&self, variant: Variant) -> &[Program] {
+    /// The programs of a variant, in the order of their list; those that [`Self::ensure`] was asked for are there.
+    pub(crate) fn of(&self, variant: Variant) -> &[Option<Program>] {
         &self.variants[variant.index()]
     }
 
@@ -161,7 +227,7 @@ impl ProgramSet {
     /// The context is current, and the programs are not used afterwards.
     pub(crate) unsafe fn delete(&self, gl: &glow::Context) {
         // SAFETY: the caller's.
-        self.variants.iter().flatten().for_each(|p| unsafe { gl.delete_program(p.raw) });
+        self.variants.iter().flatten().flatten().for_each(|p| unsafe { gl.delete_program(p.raw) });
     }
 }
 

@@ -263,6 +263,8 @@ pub(crate) enum Blend {
     Add,
     /// The product of the colours; the target keeps its alpha.
     Multiply,
+    /// The product, channel by channel.
+    Product,
     /// What is drawn over what is there, by its alpha; the target keeps its own.
     Over,
 }
@@ -277,6 +279,7 @@ impl Blend {
         let (function, equation) = match self {
             Self::Min => ([ONE, ONE, ONE, ONE], [MIN; 2]),
             Self::Add => ([ONE, ONE, ONE, ONE], [FUNC_ADD; 2]),
+            Self::Product => ([ZERO, SRC_COLOR, ZERO, SRC_ALPHA], [FUNC_ADD; 2]),
             Self::Multiply => ([ZERO, SRC_COLOR, ZERO, ONE], [FUNC_ADD; 2]),
             Self::Over => ([SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ZERO, ONE], [FUNC_ADD; 2]),
         };

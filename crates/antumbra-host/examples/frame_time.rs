@@ -1,10 +1,10 @@
 //! What shadows cost: the same frame with and without, in one run.
 //!
 //! ```text
-//! cargo run --release -p antumbra-host --example frame_time [lights] [spheres] [size]
+//! cargo run --release -p antumbra-host --example frame_time [lights] [spheres] [size] [radius]
 //! ```
 //!
-//! Spheres over a floor under point lights (8, 8, 512 by default). Each round draws the frame
+//! Spheres over a floor under point lights (8, 8, 512 by default), or glowing balls of that radius, metres. Each round draws the frame
 //! plainly (colour and depth alone) and with shadows, one after the other, every frame between two glFinish; the first
 //! rounds are dropped. Absolute times depend on the machine, the ratio is what counts.
 
@@ -17,7 +17,7 @@ use std::time::Instant;
 const ROUNDS: usize = 60;
 const WARM_UP: usize = 5;
 
-fn scene(lights: usize, spheres: usize) -> String {
+fn scene(lights: usize, spheres: usize, radius: f64) -> String {
     let mut text =
         String::from("ambient = [0.1, 0.1, 0.1]\n[camera]\neye = [0, 6, 10]\ntarget = [0, 0.5, 0]\n");
     let circle = |i: usize, n: usize| (i as f64 / n as f64 * std::f64::consts::TAU).sin_cos();
@@ -25,8 +25,12 @@ fn scene(lights: usize, spheres: usize) -> String {
         let (sin, cos) = circle(i, lights);
         let intensity = 200.0 / lights as f64;
         let (x, z) = (4.0 * cos, 4.0 * sin);
-        write!(text, "[[light]]\nname = \"l{i}\"\ntype = \"point\"\nposition = [{x}, 7, {z}]\nintensity = {intensity}\n")
-            .expect("writing to a string");
+        let kind = if radius > 0.0 { format!("sphere\"\nradius = {radius}") } else { "point\"".into() };
+        write!(
+            text,
+            "[[light]]\nname = \"l{i}\"\ntype = \"{kind}\nposition = [{x}, 7, {z}]\nintensity = {intensity}\n"
+        )
+        .expect("writing to a string");
     }
     text.push_str("[[object]]\nname = \"floor\"\nshape = { type = \"plane\" }\n");
     for i in 0..spheres {
@@ -46,10 +50,11 @@ fn scene(lights: usize, spheres: usize) -> String {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut numbers = std::env::args().skip(1).map(|a| a.parse::<usize>());
-    let mut next = |default| numbers.next().unwrap_or(Ok(default));
+    let mut arguments = std::env::args().skip(1);
+    let mut next = |default| arguments.next().map_or(Ok(default), |a| a.parse::<usize>());
     let (lights, spheres, size) = (next(8)?, next(8)?, next(512)? as u32);
-    let scene = Scene::parse(&scene(lights, spheres), "frame_time.toml".as_ref())?;
+    let radius = arguments.next().map_or(Ok(0.0), |a| a.parse::<f64>())?;
+    let scene = Scene::parse(&scene(lights, spheres, radius), "frame_time.toml".as_ref())?;
     let context = HeadlessContext::new(Api::Gl33)?;
     let gl = context.gl().clone();
     let mut stage = Stage::new(&gl)?;

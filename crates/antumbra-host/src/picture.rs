@@ -114,12 +114,13 @@ impl Stage {
         let surface = self.read_surface(setting)?;
         let [_, _, width, height] = frame.viewport;
         let mut visibility = vec![Vec::new(); setting.described.lights.len()];
+        let soft = lights.iter().any(|light| light.area != antumbra::Area::None);
         // SAFETY: a fresh framebuffer, deleted below.
         let framebuffer = unsafe { gl.create_framebuffer() }.map_err(HostError::Driver)?;
         let result = self.shadows.masks(&frame, |batch| {
             for (t, &texture) in batch.textures.iter().enumerate() {
                 // SAFETY: reads a texture that antumbra just filled into memory of its size.
-                let pixels: Vec<[u8; 4]> = unsafe {
+                let pixels: Vec<[f32; 4]> = unsafe {
                     gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(framebuffer));
                     gl.framebuffer_texture_2d(
                         glow::READ_FRAMEBUFFER,
@@ -128,7 +129,13 @@ impl Stage {
                         Some(texture),
                         0,
                     );
-                    read(&gl, width, height, glow::RGBA, glow::UNSIGNED_BYTE)
+                    if soft {
+                        read(&gl, width, height, glow::RGBA, glow::FLOAT)
+                    } else {
+                        // OpenGL ES reads what has 8 bits as such alone.
+                        let bytes: Vec<[u8; 4]> = read(&gl, width, height, glow::RGBA, glow::UNSIGNED_BYTE);
+                        bytes.into_iter().map(|texel| texel.map(|byte| f32::from(byte) / 255.0)).collect()
+                    }
                 };
                 let channels = batch.lights.saturating_sub(t * 4).min(4);
                 for channel in 0..channels {
@@ -136,7 +143,7 @@ impl Stage {
                     let facing = surface.facing(&setting.described.lights[light], setting);
                     visibility[light] = flip(&pixels, width as usize)
                         .zip(flip(&facing, width as usize))
-                        .map(|(texel, facing)| (f32::from(texel[channel]) / 255.0).min(facing))
+                        .map(|(texel, facing)| texel[channel].min(facing))
                         .collect();
                 }
             }
@@ -213,6 +220,13 @@ impl SurfaceCopy {
     /// How much of each pixel faces the light, antialiased inside each primitive.
     fn facing(&self, light: &antumbra::Light, setting: &Setting) -> Vec<f32> {
         let light = ShaderLight::new(light, &setting.camera.view);
+        if light.color.w > 0.0 || light.right.w > 0.0 {
+            // A light with an area leaves by degrees; visibility is what arrives of what could.
+            let arrives = |i: usize| light.irradiance(self.positions[i], self.normals[i]) != Vec3::ZERO;
+            return (0..self.ids.len())
+                .map(|i| f32::from(u8::from(self.ids[i] == 0 || arrives(i))))
+                .collect();
+        }
         let cosine = |i: usize| {
             let to_light = light.place.truncate() - self.positions[i] * light.place.w;
             self.normals[i].dot(to_light.normalize_or_zero())

@@ -4,7 +4,7 @@ use crate::HostError;
 use glow::HasContext;
 
 /// Lights in one pass: what the smallest uniform block that OpenGL allows can hold.
-pub(crate) const MAX_LIGHTS: usize = 256;
+pub(crate) const MAX_LIGHTS: usize = 128;
 
 /// What a program draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,9 +60,41 @@ uniforms!(
     light_count,
 );
 
+/// The areas that a scene's lights have; what is there is paid for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Areas {
+    /// None.
+    None,
+    /// Some are balls.
+    Balls,
+    /// Some are discs or rectangles.
+    All,
+}
+
+impl Areas {
+    /// How many of these there are.
+    pub(crate) const COUNT: usize = 3;
+
+    /// Those of a scene.
+    pub(crate) fn of(lights: &[antumbra::Light]) -> Self {
+        use antumbra::Area;
+        let flat = |l: &antumbra::Light| matches!(l.area, Area::Disc { .. } | Area::Rectangle { .. });
+        match lights.iter().any(flat) {
+            true => Self::All,
+            false if lights.iter().any(|l| l.area != Area::None) => Self::Balls,
+            false => Self::None,
+        }
+    }
+}
+
 impl Program {
     /// Compiles and links it.
-    pub(crate) fn new(gl: &glow::Context, kind: Kind, multisample: bool) -> Result<Self, HostError> {
+    pub(crate) fn new(
+        gl: &glow::Context,
+        kind: Kind,
+        multisample: bool,
+        areas: Areas,
+    ) -> Result<Self, HostError> {
         let header = match (gl.version().is_embedded, multisample) {
             (true, _) => "#version 300 es\nprecision highp float;\nprecision highp int;\n",
             (false, false) => "#version 330 core\n",
@@ -78,8 +110,14 @@ impl Program {
                 (include_str!("shaders/triangles.vert.glsl"), include_str!("shaders/triangles.frag.glsl"))
             }
         };
-        let lit = include_str!("shaders/lit.glsl");
-        let stages = [(glow::VERTEX_SHADER, "", vertex), (glow::FRAGMENT_SHADER, lit, fragment)];
+        // Lights with an area are shaded as antumbra takes them to be.
+        let shading = match areas {
+            Areas::None => [""; 2],
+            Areas::Balls => ["#define BALL_LIGHTS\n", antumbra::IRRADIANCE_GLSL],
+            Areas::All => ["#define FLAT_LIGHTS\n", antumbra::IRRADIANCE_GLSL],
+        };
+        let lit = format!("{}{}", shading.concat(), include_str!("shaders/lit.glsl"));
+        let stages = [(glow::VERTEX_SHADER, "", vertex), (glow::FRAGMENT_SHADER, lit.as_str(), fragment)];
         // SAFETY: objects are made, used and deleted in this context.
         unsafe {
             let raw = gl.create_program().map_err(HostError::Driver)?;

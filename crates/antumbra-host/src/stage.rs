@@ -4,12 +4,12 @@ use crate::HostError;
 use crate::buffers::Buffers as TriangleBuffers;
 use crate::cast::Cast;
 use crate::describe::{Described, describe};
-use crate::program::{Kind, MAX_LIGHTS, Program};
+use crate::program::{Areas, Kind, MAX_LIGHTS, Program};
 use crate::targets::{ColorFormat, Targets};
 use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3};
 use antumbra::math::Plane;
 use antumbra::{
-    Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface, Technique,
+    Area, Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface, Technique,
 };
 use antumbra_scene::{Moment, Primitive, Scene};
 use glow::HasContext;
@@ -20,8 +20,8 @@ use std::sync::Arc;
 pub struct Stage {
     pub(crate) gl: Arc<glow::Context>,
     pub(crate) shadows: antumbra::Renderer,
-    programs: [Program; 2],
-    multisample_programs: Option<[Program; 2]>,
+    /// Without and with many samples a pixel, without areas, with balls, with flat lights; compiled when they are first used.
+    programs: [Option<[Program; 2]>; 2 * Areas::COUNT],
     triangles: TriangleBuffers,
     vertex_array: glow::VertexArray,
     lights: glow::Buffer,
@@ -126,13 +126,6 @@ impl Stage {
     /// [`HostError::Driver`], [`HostError::Shadows`].
     pub fn new(gl: &Arc<glow::Context>) -> Result<Self, HostError> {
         let shadows = antumbra::Renderer::new(gl.clone())?;
-        let programs = |multisample| {
-            Ok::<_, HostError>([
-                Program::new(gl, Kind::Cast, multisample)?,
-                Program::new(gl, Kind::Triangles, multisample)?,
-            ])
-        };
-        let multisample_programs = if shadows.caps().max_samples > 1 { Some(programs(true)?) } else { None };
         // SAFETY: fresh objects in the current context; the buffer is as large as the block.
         unsafe {
             let lights = gl.create_buffer().map_err(HostError::Driver)?;
@@ -140,8 +133,7 @@ impl Stage {
             let size = MAX_LIGHTS * size_of::<ShaderLight>();
             gl.buffer_data_size(glow::UNIFORM_BUFFER, size as i32, glow::DYNAMIC_DRAW);
             Ok(Self {
-                programs: programs(false)?,
-                multisample_programs,
+                programs: [const { None }; 2 * Areas::COUNT],
                 triangles: TriangleBuffers::default(),
                 vertex_array: gl.create_vertex_array().map_err(HostError::Driver)?,
                 lights,
@@ -183,10 +175,13 @@ impl Stage {
         self.triangles.prepare(&self.gl, setting.primitives.iter().map(|p| &p.shape))?;
         let gl = &self.gl;
         let Some(targets) = &self.targets else { return Ok(()) };
-        let programs = match &self.multisample_programs {
-            Some(programs) if samples > 1 => programs,
-            _ => &self.programs,
-        };
+        let areas = Areas::of(&setting.described.lights);
+        let which = usize::from(samples > 1) * Areas::COUNT + areas as usize;
+        if self.programs[which].is_none() {
+            let program = |kind| Program::new(gl, kind, samples > 1, areas);
+            self.programs[which] = Some([program(Kind::Cast)?, program(Kind::Triangles)?]);
+        }
+        let Some(programs) = &self.programs[which] else { return Ok(()) };
         let view = setting.camera.view;
         let projection = setting.camera.projection;
         let [px, py] = [projection.x_axis.x, projection.y_axis.y];
@@ -387,7 +382,7 @@ impl Drop for Stage {
             self.gl.delete_vertex_array(self.vertex_array);
             self.gl.delete_buffer(self.lights);
             self.triangles.delete(&self.gl);
-            for program in self.programs.iter().chain(self.multisample_programs.iter().flatten()) {
+            for program in self.programs.iter().flatten().flatten() {
                 self.gl.delete_program(program.raw);
             }
         }

@@ -8,6 +8,7 @@ pub mod mesh;
 pub mod plane_shadow;
 pub mod real;
 pub mod shape;
+pub mod soft;
 
 pub use light::Light;
 pub use mesh::{MeshError, TriangleMesh};

@@ -28,6 +28,8 @@ pub trait Real:
     fn to_f64(self) -> f64;
     /// √x; NaN below zero.
     fn sqrt(self) -> Self;
+    /// The angle of the point (`x`, this), radians in [-π, π].
+    fn atan2(self, x: Self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
     /// The smaller one; the other one if one is NaN.
@@ -75,6 +77,9 @@ macro_rules! real {
             }
             fn sqrt(self) -> Self {
                 <$real>::sqrt(self)
+            }
+            fn atan2(self, x: Self) -> Self {
+                <$real>::atan2(self, x)
             }
             fn abs(self) -> Self {
                 <$real>::abs(self)

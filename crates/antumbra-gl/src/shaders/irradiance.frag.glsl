@@ -4,6 +4,18 @@
 // TAKEN:   what shadows take, to be added up over the batches.
 // ALL:     what the lights send, to be added up over the batches, where shadows take anything.
 
+#define BATCH_LIGHTS 8
+#define LIGHT_VECTORS 6
+
+uniform vec4 u_lights[BATCH_LIGHTS * LIGHT_VECTORS];  // view space
+uniform int u_light_count;
+
+#ifdef FLAT_LIGHTS
+#define LIGHT(i) u_lights[i], u_lights[i + 1], u_lights[i + 2], u_lights[i + 3], u_lights[i + 4], u_lights[i + 5]
+#else
+#define LIGHT(i) u_lights[i], u_lights[i + 1], u_lights[i + 2], u_lights[i + 3]
+#endif
+
 #ifndef ALL
 uniform highp SURFACE_SAMPLER u_visibility_0;
 uniform highp SURFACE_SAMPLER u_visibility_1;
@@ -42,8 +54,7 @@ void main() {
         if (i >= u_light_count) {
             break;
         }
-        vec3 e = irradiance(u_lights[i * 4], u_lights[i * 4 + 1].rgb, u_lights[i * 4 + 2], u_lights[i * 4 + 3],
-                            s.position, normal);
+        vec3 e = irradiance(LIGHT(i * LIGHT_VECTORS), s.position, normal);
         all += e;
         taken += e * (1.0 - visibility[i]);
     }

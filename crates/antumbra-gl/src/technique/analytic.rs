@@ -6,10 +6,10 @@
 
 use super::options::options;
 use super::{About, Batch, Method, Part, Pass, Refusal};
-use crate::pairs::{PairBuilder, Vertex};
+use crate::pairs::{HARD_KINDS, PairBuilder, Vertex};
 use crate::resources::UploadRing;
 use crate::scenery::Scenery;
-use crate::shader::{COVERAGE, ProgramSource, SURFACE, Stage};
+use crate::shader::{AREA, COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::Blend;
 use crate::{Caps, Error};
 use glow::HasContext;
@@ -45,22 +45,67 @@ macro_rules! blocker_program {
                 ],
             },
             uniforms: &[],
+            lights: LightKind::Any,
         }
     };
 }
 
-/// A program for each kind of blocker, in the order of `pairs::pack_blocker`.
+macro_rules! soft_program {
+    ($name:literal, $kind:ident, $light:literal, $texels:literal, $shape:literal) => {
+        ProgramSource {
+            name: $name,
+            vertex: Stage {
+                defines: concat!("#define BLOCKER_TEXELS ", $texels, "\n"),
+                parts: &[include_str!("../shaders/analytic/blocker.vert.glsl")],
+            },
+            fragment: Stage {
+                defines: concat!(
+                    "#define BLOCKER_TEXELS ",
+                    $texels,
+                    "\n#define LIGHT_TEXELS ",
+                    $light,
+                    "\n#define ",
+                    $shape,
+                    "\n"
+                ),
+                parts: &[
+                    COVERAGE,
+                    SURFACE,
+                    AREA,
+                    include_str!("../shaders/analytic/blocker_data.glsl"),
+                    include_str!("../shaders/analytic/soft.glsl"),
+                    include_str!("../shaders/analytic/soft.frag.glsl"),
+                ],
+            },
+            uniforms: &[],
+            lights: LightKind::$kind,
+        }
+    };
+}
+
+/// A program for each kind of blocker, in the order of `pairs::pack_blocker`; then for each kind of occluder past a
+/// ball, and past a flat light, in the order of `AreaLight::pack_pair`.
 pub(super) const PROGRAMS: &[ProgramSource] = &[
     blocker_program!("sphere", "2", "sphere.glsl"),
     blocker_program!("disc", "3", "disc.glsl"),
     blocker_program!("polygon", "5", "polygon.glsl"),
+    soft_program!("sphere light, sphere", Ball, "1", "2", "SPHERE"),
+    soft_program!("sphere light, disc", Ball, "1", "3", "DISC"),
+    soft_program!("sphere light, triangle", Ball, "1", "4", "CORNERS 3"),
+    soft_program!("sphere light, rectangle", Ball, "1", "5", "CORNERS 4"),
+    soft_program!("sphere light, cone", Ball, "1", "3", "CONE"),
+    soft_program!("sphere light, plane", Ball, "1", "2", "PLANE"),
+    soft_program!("flat light, sphere", Flat, "4", "5", "SPHERE"),
+    soft_program!("flat light, disc", Flat, "4", "6", "DISC"),
+    soft_program!("flat light, triangle", Flat, "4", "7", "CORNERS 3"),
+    soft_program!("flat light, rectangle", Flat, "4", "8", "CORNERS 4"),
+    soft_program!("flat light, cone", Flat, "4", "6", "CONE"),
+    soft_program!("flat light, plane", Flat, "4", "5", "PLANE"),
 ];
 
 pub(super) fn refusal(_: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
-    Refusal::of_areas(scenery.lights).or_else(|| {
-        let refusal = || Refusal { part: Part::Mesh(0), reason: "has no closed form for meshes".into() };
-        (!scenery.meshes.is_empty()).then(refusal)
-    })
+    let refusal = || Refusal { part: Part::Mesh(0), reason: "has no closed form for meshes".into() };
+    (!scenery.meshes.is_empty()).then(refusal)
 }
 
 /// The OpenGL objects, and the memory of the packing.
@@ -98,10 +143,13 @@ impl Method for State {
             gl.bind_vertex_array(Some(upload.vertex_array));
             gl.active_texture(glow::TEXTURE3);
             gl.bind_texture(glow::TEXTURE_2D, Some(upload.texture));
-            Blend::Min.apply(gl, *pass.caps);
             for (group, target) in batch.masks.iter().enumerate() {
                 gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
                 for draw in self.pairs.draws.iter().filter(|draw| draw.group == group) {
+                    // Of lights without extent the union of shadows is the darkest; of others the product is between
+                    // the least and the most that several can take together.
+                    let blend = if draw.kind < HARD_KINDS { Blend::Min } else { Blend::Product };
+                    blend.apply(gl, *pass.caps);
                     let program = pass.use_program(draw.kind, pass.mask_offset());
                     gl.uniform_1_i32(program.uniforms.blockers.as_ref(), 3);
                     gl.draw_arrays(glow::TRIANGLES, draw.first, draw.count);

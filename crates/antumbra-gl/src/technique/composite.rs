@@ -11,7 +11,7 @@ use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::pairs::{BATCH_LIGHTS, Vertex};
 use crate::resources::UploadRing;
 use crate::scenery::{Receiver, ReceiverShape, Scenery};
-use crate::shader::{COVERAGE, Program, ProgramSource, SURFACE, Stage};
+use crate::shader::{COVERAGE, LightKind, Program, ProgramSource, SURFACE, Stage};
 use crate::state::Blend;
 use crate::{Caps, Encoding, Error};
 use antumbra_math::Light as Place;
@@ -89,6 +89,7 @@ macro_rules! part_program {
                 ],
             },
             uniforms: &["u_receiver", "u_receiver_id"],
+            lights: LightKind::Any,
         }
     };
 }

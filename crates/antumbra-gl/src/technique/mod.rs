@@ -197,17 +197,22 @@ pub(crate) struct Pass<'a> {
     /// The technique with its options.
     pub(crate) technique: &'a Technique,
     /// The technique's programs for the frame's surface, in the order of its list.
-    pub(crate) programs: &'a [Program],
+    pub(crate) programs: &'a [Option<Program>],
 }
 
 impl Pass<'_> {
+    /// A program of the technique's list.
+    pub(crate) fn program(&self, index: usize) -> &Program {
+        self.programs[index].as_ref().expect("compiled for the frame's lights")
+    }
+
     /// Uses a program of the technique's list and gives it the host's surface: `offset` leads from the pixels of
     /// the target that is drawn to to the surface's texels. Takes units 0 to 2; 3 and 4 are the technique's.
     ///
     /// # Safety
     /// A [`crate::state::StateGuard`] is alive.
     pub(crate) unsafe fn use_program(&self, index: usize, offset: [i32; 2]) -> &Program {
-        let program = &self.programs[index];
+        let program = self.program(index);
         // SAFETY: the caller's.
         unsafe { set_surface(self.gl, program, self.view, &self.frame.surface, offset) };
         program

@@ -122,7 +122,7 @@ fn multisampled_surfaces_need_sample_shading() {
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         if !gl.is_desktop() {
             let surface = Surface { samples: 4, ..shot.frame().surface };
-            let refused = renderer.warm_up(&surface);
+            let refused = renderer.warm_up(&surface, &[]);
             assert!(matches!(refused, Err(Error::Unsupported { .. })), "{refused:?}");
             assert_eq!(renderer.caps().max_samples, 1, "and the caps say so");
         }

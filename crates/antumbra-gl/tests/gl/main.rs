@@ -9,6 +9,7 @@ mod context;
 mod odd_host;
 mod shot;
 mod snapshot;
+mod soft_twins;
 mod world;
 
 mod bad_frames;

@@ -49,7 +49,7 @@ fn every_call_leaves_the_state_as_it_was() {
         };
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         check("Renderer::new");
-        renderer.warm_up(&shot.frame().surface).expect("shaders");
+        renderer.warm_up(&shot.frame().surface, &[]).expect("shaders");
         check("warm_up");
         let float = renderer.caps().tier != Tier::Es3;
         for frame in [shot.frame(), many_shot.frame(), depth_only(&shot)] {

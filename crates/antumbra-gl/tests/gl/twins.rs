@@ -13,7 +13,8 @@ use glow::HasContext;
 
 const COVERAGE: &str = include_str!("../../src/shaders/coverage.glsl");
 const SURFACE: &str = include_str!("../../src/shaders/surface.glsl");
-const LIGHTS: &str = include_str!("../../src/shaders/lights.glsl");
+pub(crate) const AREA: &str = include_str!("../../src/shaders/area.glsl");
+pub(crate) const LIGHTS: &str = include_str!("../../src/shaders/lights.glsl");
 const SPHERE: &str = include_str!("../../src/shaders/analytic/sphere.glsl");
 const DISC: &str = include_str!("../../src/shaders/analytic/disc.glsl");
 const POLYGON: &str = include_str!("../../src/shaders/analytic/polygon.glsl");
@@ -24,7 +25,12 @@ const ROW: usize = 64;
 
 /// Runs `body`, which reads `INPUT(0)` to `INPUT(K - 1)` and writes `o_out`, on each of `inputs`.
 /// `None` where float targets are missing.
-fn on_gpu<const K: usize>(gl: &Gl, parts: &[&str], body: &str, inputs: &[[Vec4; K]]) -> Option<Vec<Vec4>> {
+pub(crate) fn on_gpu<const K: usize>(
+    gl: &Gl,
+    parts: &[&str],
+    body: &str,
+    inputs: &[[Vec4; K]],
+) -> Option<Vec<Vec4>> {
     let context = &gl.gl;
     if !gl.is_desktop()
         && gl.version() < (3, 2)
@@ -113,22 +119,22 @@ fn assert_equal(what: &str, gpu: &[f32], cpu: &[f32], close: f32, over: f64) {
     );
 }
 
-struct Random(fastrand::Rng);
+pub(crate) struct Random(pub(crate) fastrand::Rng);
 
 impl Random {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(fastrand::Rng::with_seed(7))
     }
 
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
         low + self.0.f64() * (high - low)
     }
 
-    fn vector(&mut self, size: f64) -> DVec3 {
+    pub(crate) fn vector(&mut self, size: f64) -> DVec3 {
         DVec3::from_array([(); 3].map(|()| self.within(-size, size)))
     }
 
-    fn unit(&mut self) -> DVec3 {
+    pub(crate) fn unit(&mut self) -> DVec3 {
         self.vector(1.0).try_normalize().unwrap_or(DVec3::Y)
     }
 
@@ -351,8 +357,8 @@ fn irradiance_is_its_twin() {
             let [a, b, c, d] = [light.place, light.color, light.cone, light.attenuation];
             inputs.push([a, b, c, d, position.extend(0.0), normal.extend(0.0)]);
         }
-        let body = "o_out = vec4(irradiance(INPUT(0), INPUT(1).rgb, INPUT(2), INPUT(3), INPUT(4).xyz, INPUT(5).xyz), 0.0);";
-        let Some(gpu) = on_gpu(gl, &[LIGHTS], body, &inputs) else { return };
+        let body = "o_out = vec4(irradiance(INPUT(0), INPUT(1), INPUT(2), INPUT(3), INPUT(4).xyz, INPUT(5).xyz), 0.0);";
+        let Some(gpu) = on_gpu(gl, &[AREA, LIGHTS], body, &inputs) else { return };
         let mut off = Vec::new();
         for (i, (gpu, cpu)) in gpu.iter().zip(&cpu).enumerate() {
             // A few units in the last place, relative; at the rim of a cone the falloff is steep.

@@ -15,7 +15,7 @@ use crate::mesh_buffers::MeshCache;
 use crate::proxy::ProxyBuilder;
 use crate::resources::{Target, TargetFormat, UploadRing};
 use crate::scenery::Scenery;
-use crate::shader::{COVERAGE, ProgramSource, SCREEN, SURFACE, Stage};
+use crate::shader::{COVERAGE, LightKind, ProgramSource, SCREEN, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard, set_color_mask};
 use crate::stencil::StencilBuffer;
 use crate::surface::bind_texture;
@@ -72,6 +72,7 @@ macro_rules! screen_program {
                 parts: &[COVERAGE, SURFACE, include_str!(concat!("../../shaders/projected/", $file))],
             },
             uniforms: $uniforms,
+            lights: LightKind::Any,
         }
     };
 }
@@ -84,6 +85,7 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
         vertex: caster_stage!("caster.vert.glsl"),
         fragment: caster_stage!("caster.frag.glsl"),
         uniforms: &["u_to_clip", "u_height", "u_shade"],
+        lights: LightKind::Any,
     },
     screen_program!("projected paint", "paint.frag.glsl", &["u_painted", "u_painted_offset", "u_exponent"]),
 ];
@@ -211,7 +213,7 @@ impl State {
     /// # Safety
     /// As for [`Self::draw_group`].
     unsafe fn cast(&self, pass: &Pass<'_>, draw: &Draw, shade: &[f32; 4]) {
-        let (gl, program) = (pass.gl, &pass.programs[CASTER]);
+        let (gl, program) = (pass.gl, pass.program(CASTER));
         let [to_clip_at, height_at, shade_at] = &program.own[..] else { unreachable!("one location a name") };
         let caster = &self.plan.posed[draw.caster];
         // SAFETY: the caller's; the elements are those of the vertex array.

@@ -1,0 +1,118 @@
+// The visibility of one light with an area past one occluder, multiplied into the light's channel.
+//
+// LIGHT_TEXELS texels tell of the light (1: a ball; 4: anything flat), the rest of the occluder, which is one of
+// SPHERE, DISC, TRIANGLE, RECTANGLE, CONE and PLANE.
+
+flat in highp uint v_id;
+flat in vec4 v_channel;
+
+layout(location = 0) out vec4 o_visibility;
+
+#define SHAPE(k) BLOCKER_DATA[LIGHT_TEXELS + (k)]
+
+// Half the width, in pixels, that a penumbra has at least.
+#define HALF_WIDTH 0.75
+
+// Edges of penumbrae that are narrower than a pixel would be jagged: the light is taken for wide enough. `apart` is the
+// occluder's distance: a pixel's patch of the receiver sees its edge move on the light by `shift`.
+LightPatch antialiased(LightPatch p, Footprint f, float apart) {
+    vec3 a = cross(p.origin, f.dx);
+    vec3 b = cross(p.origin, f.dy);
+    float pixel = sqrt(0.5 * (dot(a, a) + dot(b, b))) * HALF_WIDTH;
+    float shift = pixel * max(1.0 / max(apart, 1e-6 * p.reach) - 1.0 / p.reach, 0.0);
+    float square = max(dot(p.right, p.right), 1e-30);
+    float widen = max(1.0, shift * inversesqrt(square));
+    p.right *= widen;
+    p.up *= widen;
+    return p;
+}
+
+void main() {
+    SurfacePoint s;
+    if (!surface_point(s) || !s.receives || (s.has_id && s.id == v_id)) {
+        discard;
+    }
+    vec3 normal = surface_normal(s);
+    Footprint footprint = surface_footprint(s);
+    vec3 light = BLOCKER_DATA[0].xyz;
+#if LIGHT_TEXELS == 1
+    LightPatch p = sphere_patch(light, BLOCKER_DATA[0].w, s.position, normal);
+#else
+    vec3 direction = BLOCKER_DATA[1].xyz;
+    bool round = BLOCKER_DATA[1].w > 0.5;
+    vec3 across = level_axis(direction, normal) * BLOCKER_DATA[0].w;
+    LightPatch p = flat_patch(light, direction, round ? across : BLOCKER_DATA[2].xyz,
+                              round ? cross(direction, across) : BLOCKER_DATA[3].xyz, round, s.position);
+#endif
+    bool solid = false;     // whether the point is inside
+    bool hides = p.faces;
+#if defined(SPHERE)
+    vec3 center = SHAPE(0).xyz - s.position;
+    float radius = SHAPE(0).w;
+    float reach = radius + (s.has_id ? 0.0 : s.tolerance);
+    bool inside = dot(center, center) < reach * reach;
+    solid = inside && s.has_id;
+    hides = hides && !inside;
+    p = antialiased(p, footprint, length(center));
+    Hidden hidden = sphere_conic(center, radius, p);
+#elif defined(DISC)
+    vec3 center = SHAPE(0).xyz - s.position;
+    vec3 axis = SHAPE(1).xyz;
+    p = antialiased(p, footprint, length(center));
+    hides = hides && abs(dot(center, axis)) > s.tolerance;
+    Hidden hidden = disc_conic(center, axis, SHAPE(0).w, p);
+#elif defined(CONE)
+    vec3 center = SHAPE(0).xyz - s.position;
+    vec3 axis = SHAPE(1).xyz;
+    float radius = SHAPE(0).w;
+    float height = SHAPE(1).w;
+    float up = -dot(center, axis);
+    float width = radius * (1.0 - up / height);
+    vec3 out_of_axis = center + axis * up;
+    // How far inside the cone's side and base, in metres.
+    float depth = min(min(up, (width - length(out_of_axis)) * height * inversesqrt(height * height + radius * radius)),
+                      height - up);
+    bool inside = depth > (s.has_id ? 0.0 : -s.tolerance);
+    solid = inside && s.has_id;
+    hides = hides && !inside;
+    p = antialiased(p, footprint, length(center + axis * (0.5 * height)));
+    vec3 corners[3];
+    bool has_triangle = cone_triangle(center, axis, radius, height, corners);
+    Hidden hidden = Hidden(disc_conic(center, axis, radius, p), polygon_of(corners, p), abs(up) > s.tolerance,
+                           has_triangle);
+#elif defined(PLANE)
+    vec3 axis = SHAPE(0).xyz;
+    float height = dot(axis, s.position) - SHAPE(0).w;
+    hides = hides && abs(height) > s.tolerance;
+    Hidden hidden = patch_line(p, (height < 0.0 ? axis : -axis) * p.reach) - vec3(abs(height), 0.0, 0.0);
+#else
+    // Not in a loop: llvmpipe reads zeros where a flat input is indexed by a variable.
+    vec3 corners[CORNERS];
+    corners[0] = SHAPE(0).xyz - s.position;
+    corners[1] = SHAPE(1).xyz - s.position;
+    corners[2] = SHAPE(2).xyz - s.position;
+    vec3 middle = corners[0] + corners[1] + corners[2];
+#if CORNERS == 4
+    corners[3] = SHAPE(3).xyz - s.position;
+    middle += corners[3];
+#endif
+    vec3 axis = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    hides = hides && abs(dot(axis, corners[0])) > s.tolerance;
+    p = antialiased(p, footprint, length(middle) / float(CORNERS));
+    Hidden hidden = polygon_of(corners, p);
+#endif
+    Strips strips = strips_of(p, normal);
+    float taken = hidden_irradiance(hidden, strips);
+#if LIGHT_TEXELS == 1
+    // The closed form of a ball, in the units of the strips.
+    float tangent_2 = dot(p.right, p.right);
+    float whole = cap_irradiance(sqrt(tangent_2 / (1.0 + tangent_2)), dot(normal, p.origin)) * 3.141592653589793 / tangent_2;
+#else
+    float whole = strips_whole(strips);
+#endif
+    float dark = solid ? 1.0 : hides ? clamp(taken / max(whole, 1e-30), 0.0, 1.0) : 0.0;
+    if (!(dark > 0.0)) {
+        discard;
+    }
+    o_visibility = vec4(1.0) - v_channel * dark;
+}

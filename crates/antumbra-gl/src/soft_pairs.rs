@@ -1,0 +1,154 @@
+//! Pairs of an area light and an occluder in the shaders' numbers.
+
+use crate::scenery::Area;
+use antumbra_math::Shape;
+use antumbra_math::blocking::Outline;
+use glam::{DMat4, DVec3, Vec4};
+
+/// Kinds of occluder that have a program of their own for each kind of light: sphere, disc, triangle, rectangle, cone,
+/// plane.
+pub(crate) const SOFT_SHAPES: usize = 6;
+
+/// A light with an area, view space.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AreaLight {
+    center: DVec3,
+    /// Radius of a ball that holds it.
+    radius: f64,
+    area: Area,
+}
+
+impl AreaLight {
+    /// `None` for a light without an area.
+    pub(crate) fn new(area: Area, center: DVec3, to_view: &DMat4) -> Option<Self> {
+        let turn = |v| to_view.transform_vector3(v);
+        let (area, radius) = match area {
+            Area::None => return None,
+            Area::Sphere { radius } => (area, radius),
+            Area::Disc { direction, radius } => (Area::Disc { direction: turn(direction), radius }, radius),
+            Area::Rectangle { direction, half_right, half_up } => {
+                let area = Area::Rectangle {
+                    direction: turn(direction),
+                    half_right: turn(half_right),
+                    half_up: turn(half_up),
+                };
+                (area, half_right.length().hypot(half_up.length()))
+            }
+        };
+        Some(Self { center, radius, area })
+    }
+
+    /// Appends its texels; whether it is a ball.
+    fn pack(&self, texels: &mut Vec<Vec4>) -> bool {
+        let texel = |v: DVec3, w: f64| v.as_vec3().extend(w as f32);
+        match self.area {
+            Area::None | Area::Sphere { .. } => texels.push(texel(self.center, self.radius)),
+            Area::Disc { direction, radius } => {
+                texels.extend([texel(self.center, radius), texel(direction, 1.0), Vec4::ZERO, Vec4::ZERO]);
+            }
+            Area::Rectangle { direction, half_right, half_up } => texels.extend([
+                texel(self.center, 0.0),
+                texel(direction, 0.0),
+                texel(half_right, 0.0),
+                texel(half_up, 0.0),
+            ]),
+        }
+        matches!(self.area, Area::None | Area::Sphere { .. })
+    }
+
+    /// Appends the pair's texels as `soft.frag.glsl` reads them, and says which of its programs that is; `None` for
+    /// shapes without extent, which hide nothing.
+    pub(crate) fn pack_pair(&self, shape: &Shape, texels: &mut Vec<Vec4>) -> Option<usize> {
+        let (_, extent) = shape.bounding_sphere();
+        if !(extent > 0.0) {
+            return None;
+        }
+        let first = texels.len();
+        let round = self.pack(texels);
+        let texel = |v: DVec3, w: f64| v.as_vec3().extend(w as f32);
+        let kind = match *shape {
+            Shape::Sphere(s) => {
+                texels.push(texel(s.center, s.radius));
+                0
+            }
+            Shape::Disc(s) => {
+                texels.extend([texel(s.center, s.radius), texel(s.normal, 0.0)]);
+                1
+            }
+            Shape::Triangle(s) => {
+                texels.extend(s.vertices.map(|v| texel(v, 0.0)));
+                2
+            }
+            Shape::Rectangle(s) => {
+                texels.extend(s.corners().map(|v| texel(v, 0.0)));
+                3
+            }
+            Shape::Cone(s) => {
+                texels.extend([texel(s.base_center, s.radius), texel(s.axis, s.height)]);
+                4
+            }
+            Shape::Plane(s) => {
+                texels.push(texel(s.normal, s.offset));
+                5
+            }
+        };
+        if texels[first..].iter().any(|texel| !texel.is_finite()) {
+            texels.truncate(first);
+            return None;
+        }
+        Some(if round { kind } else { SOFT_SHAPES + kind })
+    }
+
+    /// Whether the light is all on one side of a plane.
+    pub(crate) fn is_beside(&self, shape: &Shape) -> bool {
+        !matches!(shape, Shape::Plane(plane) if plane.height(self.center).abs() <= self.radius)
+    }
+
+    /// Where the penumbra begins, and points that it is thrown from: the hull of that outline and of all rays away from
+    /// those points holds every point that the shape hides any of the light from.
+    ///
+    /// Two balls apart have a common tangent cone with its apex between them: seen from there the occluder's shadow is
+    /// the penumbra. Flat shapes with corners are thrown from the corners of the light's box.
+    pub(crate) fn outline(&self, shape: &Shape) -> (Outline, SoftOrigins) {
+        match shape {
+            Shape::Plane(_) => (Outline::Everywhere, SoftOrigins::default()),
+            Shape::Triangle(s) => {
+                let [a, b, c] = s.vertices;
+                (Outline::Corners { corners: [a, b, c, c], count: 3 }, self.corners())
+            }
+            Shape::Rectangle(s) => (Outline::Corners { corners: s.corners(), count: 4 }, self.corners()),
+            Shape::Sphere(_) | Shape::Disc(_) | Shape::Cone(_) => {
+                let (center, radius) = shape.bounding_sphere();
+                let apart = center.distance(self.center);
+                if !(apart > (self.radius + radius) * 1.001) {
+                    return (Outline::Everywhere, SoftOrigins::default());
+                }
+                let apex = self.center.lerp(center, self.radius / (self.radius + radius));
+                (Outline::Ball { center, radius }, SoftOrigins { points: [apex; 8], count: 1 })
+            }
+        }
+    }
+
+    fn corners(&self) -> SoftOrigins {
+        let mut points = [self.center; 8];
+        for (i, point) in points.iter_mut().enumerate() {
+            let side = |bit: usize| if i & bit == 0 { -self.radius } else { self.radius };
+            *point += DVec3::new(side(1), side(2), side(4));
+        }
+        SoftOrigins { points, count: 8 }
+    }
+}
+
+/// Points that penumbrae are thrown from.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SoftOrigins {
+    points: [DVec3; 8],
+    count: usize,
+}
+
+impl SoftOrigins {
+    /// The points, homogeneous.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = glam::DVec4> {
+        self.points.into_iter().take(self.count).map(|p| p.extend(1.0))
+    }
+}
