@@ -33,6 +33,7 @@ pub(crate) const GALLERY: &[Entry] = gallery![
     "mobile",
     "winter-evening",
     "many-lights",
+    "two-area-lights",
     "furnished-room",
     "staircase",
 ];
