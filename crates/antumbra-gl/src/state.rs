@@ -11,7 +11,7 @@ use glow::HasContext;
 pub(crate) const UNITS: usize = 5;
 
 /// The switches that antumbra sets, with the value it wants.
-const SWITCHES: [(u32, bool, bool); 13] = [
+const SWITCHES: [(u32, bool, bool); 14] = [
     // (switch, wanted, desktop OpenGL only)
     (glow::DEPTH_TEST, false, false),
     (glow::STENCIL_TEST, false, false),
@@ -25,6 +25,7 @@ const SWITCHES: [(u32, bool, bool); 13] = [
     (glow::SAMPLE_MASK, false, true),
     (glow::COLOR_LOGIC_OP, false, true),
     (glow::POLYGON_SMOOTH, false, true),
+    (glow::PRIMITIVE_RESTART, false, true), // the index that restarts may be one of a mesh
     (glow::MULTISAMPLE, true, true),
 ];
 
