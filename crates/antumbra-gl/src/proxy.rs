@@ -224,13 +224,13 @@ impl ProxyBuilder {
 }
 
 /// Where a ray leaves a half-space, in lengths of `d`; 0 for a ray that starts outside.
-fn crossing(plane: &Plane, p: DVec3, d: DVec3) -> f64 {
+pub(crate) fn crossing(plane: &Plane, p: DVec3, d: DVec3) -> f64 {
     plane.height(p).max(0.0) / -plane.normal.dot(d)
 }
 
 /// The half-space that all rays leave, and leave soonest. One is enough: every half-space alone
 /// makes a polygon that holds the shadow.
-fn nearest_end<'a>(rays: &[(DVec3, DVec3)], bounds: &'a [Plane]) -> Option<&'a Plane> {
+pub(crate) fn nearest_end<'a>(rays: &[(DVec3, DVec3)], bounds: &'a [Plane]) -> Option<&'a Plane> {
     let reach = |plane: &Plane| {
         rays.iter().try_fold(0.0, |longest: f64, &(p, d)| {
             let leaves = plane.normal.dot(d) < -1e-6 * d.length();

@@ -72,6 +72,14 @@ impl TileGrid {
         self.touched.iter_mut().zip(&other.touched).for_each(|(t, o)| *t |= o);
     }
 
+    /// The smallest rectangle that holds all touched tiles: x, y, width, height in pixels; empty if there are none.
+    pub(crate) fn rectangle(&self) -> [i32; 4] {
+        let (mut low, mut high) = (self.size, DVec2::ZERO);
+        self.runs(|a, b| (low, high) = (low.min(a), high.max(b)));
+        let size = (high - low).max(DVec2::ZERO);
+        [low.x, low.y, size.x, size.y].map(|x| x as i32)
+    }
+
     /// Appends two triangles for each run of touched tiles, in clip space.
     pub(crate) fn triangles(&self, vertices: &mut Vec<[f32; 2]>) {
         self.runs(|a, b| {
@@ -104,6 +112,16 @@ mod tests {
         let mut all = Vec::new();
         grid.runs(|a, b| all.push((a.x, a.y, b.x, b.y)));
         all
+    }
+
+    #[test]
+    fn a_rectangle_holds_the_touched_tiles_and_no_more() {
+        let mut grid = TileGrid::default();
+        grid.reset(DVec2::new(200.0, 100.0));
+        grid.touch(&[DVec2::new(40.0, 20.0), DVec2::new(60.0, 20.0), DVec2::new(40.0, 30.0)]);
+        assert_eq!(grid.rectangle(), [32, 16, 32, 16], "two tiles");
+        grid.touch(&[DVec2::new(190.0, 90.0), DVec2::new(199.0, 99.0), DVec2::new(195.0, 99.0)]);
+        assert_eq!(grid.rectangle(), [32, 16, 168, 84], "up to the corner");
     }
 
     #[test]
@@ -140,10 +158,11 @@ mod tests {
         let size = DVec2::new(33.0, 17.0);
         let mut grid = TileGrid::default();
         grid.reset(size);
-        assert!(covered(&grid).is_empty(), "no polygon, no tile");
+        assert!(covered(&grid).is_empty() && grid.rectangle()[2..] == [0, 0], "no polygon, no tile");
         grid.touch(&[DVec2::ZERO, DVec2::new(33.0, 0.0), size, DVec2::new(0.0, 17.0)]);
         let whole = [(0.0, 0.0, 33.0, 16.0), (0.0, 16.0, 33.0, 17.0)];
         assert_eq!(covered(&grid), whole, "two rows of tiles");
+        assert_eq!(grid.rectangle(), [0, 0, 33, 17], "all of it");
         let mut all = TileGrid::default();
         all.reset(size);
         assert!(all.is_untouched(), "nothing yet");

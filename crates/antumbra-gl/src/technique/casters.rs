@@ -43,7 +43,7 @@ pub(crate) struct Caster<'a> {
 /// The frame's occluders and meshes as posed triangle meshes. Shapes without extent (a radius of zero, not finite)
 /// cast none and are left out, and so are infinite planes: see [`planes`].
 pub(crate) fn casters<'a>(pass: &Pass<'a>) -> impl Iterator<Item = Caster<'a>> + use<'a> {
-    let shapes = pass.frame.occluders.iter().filter_map(|o| -> Option<Caster<'a>> { of_occluder(o) });
+    let shapes = pass.frame.occluders.iter().filter_map(|o| -> Option<Caster<'a>> { caster_of(o) });
     let meshes = pass.frame.meshes.iter().map(|m| Caster { mesh: &m.mesh, model: m.model, id: m.id });
     shapes.chain(meshes)
 }
@@ -56,7 +56,8 @@ pub(crate) fn planes<'a>(pass: &Pass<'a>) -> impl Iterator<Item = (Plane, u32)> 
     })
 }
 
-fn of_occluder(occluder: &Occluder) -> Option<Caster<'static>> {
+/// A shape as a posed mesh, under the same conditions as in [`casters`].
+pub(crate) fn caster_of(occluder: &Occluder) -> Option<Caster<'static>> {
     let unit: &'static UnitShapes = &UNIT;
     let (mesh, model) = match occluder.shape {
         Shape::Sphere(s) if s.radius > 0.0 => {

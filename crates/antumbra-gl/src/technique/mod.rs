@@ -5,6 +5,7 @@ mod casters;
 pub mod composite;
 mod options;
 pub mod projected;
+pub mod volume;
 
 use crate::frame::Frame;
 use crate::resources::Target;
@@ -103,6 +104,8 @@ techniques! {
     Composite = composite, "composite";
     /// Triangles flattened onto planes and rectangles, with a stencil buffer.
     Projected = projected, "projected";
+    /// Stencil shadow volumes.
+    Volume = volume, "volume";
 }
 
 impl Technique {
