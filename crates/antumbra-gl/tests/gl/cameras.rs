@@ -9,10 +9,11 @@ use antumbra_scene::Scene;
 use glam::camera::rh::proj;
 use glam::{DMat4, DVec3, DVec4};
 
-const REVERSED: DepthFormat = DepthFormat { bits: 24, float: true, background: 0.0, zero_to_one: true };
+pub(crate) const REVERSED: DepthFormat =
+    DepthFormat { bits: 24, float: true, background: 0.0, zero_to_one: true };
 
 /// Every projection that hosts use, with what its depth buffer is like.
-fn cameras(world: &World) -> Vec<(&'static str, Camera, DepthFormat)> {
+pub(crate) fn cameras(world: &World) -> Vec<(&'static str, Camera, DepthFormat)> {
     let aspect = f64::from(VIEWPORT[2]) / f64::from(VIEWPORT[3]);
     let usual = DepthFormat::default();
     let angle = 45f64.to_radians();

@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 use glow::HasContext;
 
 /// The surface without one thing or the other.
-fn without<'w>(shot: &Shot<'w>, normals: bool, ids: bool) -> Frame<'w> {
+pub(crate) fn without<'w>(shot: &Shot<'w>, normals: bool, ids: bool) -> Frame<'w> {
     let mut frame = shot.frame();
     if !normals {
         frame.surface.normals = None;

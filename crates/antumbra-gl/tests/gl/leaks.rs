@@ -3,7 +3,7 @@
 use crate::context::{Gl, in_each_api};
 use crate::lights::many_lights;
 use crate::shot::{Canvas, Shot, VIEWPORT};
-use antumbra_gl::{Encoding, Frame, Renderer, Surface, Tier};
+use antumbra_gl::{Encoding, Frame, Renderer, Surface, Technique, Tier};
 use glow::HasContext;
 use std::num::NonZeroU32;
 
@@ -106,9 +106,11 @@ fn a_renderer_takes_its_objects_with_it() {
         let (few, many) = (many_lights(3), many_lights(9));
         let (shot, many_shot) = (Shot::new(gl, &few), Shot::new(gl, &many));
         let canvas = Canvas::new(gl);
+        let able = Shot::able(&shot.frame());
         let before = live(&gl.gl);
         for round in 0..100 {
             let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+            renderer.set_technique(able[round / 10 % able.len()]).expect("a technique");
             // Some are dropped without a frame, some after a kind of frame each.
             let float = renderer.caps().tier != Tier::Es3;
             let frame = if round % 2 == 0 && float { many_shot.frame() } else { shot.frame() };
@@ -145,12 +147,16 @@ fn another_size_replaces_the_old_targets() {
         let _canvas = Canvas::new(gl);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         let float = renderer.caps().tier != Tier::Es3;
+        let able = Shot::able(&shot.frame());
         let mut draw = |width: i32, height: i32| {
             let frame = Frame { viewport: [0, 0, width, height], ..shot.frame() };
-            if float {
-                renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
+            for technique in &able {
+                renderer.set_technique(*technique).expect("a technique");
+                if float {
+                    renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
+                }
+                renderer.masks(&frame, |_| {}).expect("the frame is right");
             }
-            renderer.masks(&frame, |_| {}).expect("the frame is right");
         };
         draw(VIEWPORT[2], VIEWPORT[3]);
         let before = live(&gl.gl);
@@ -170,10 +176,15 @@ fn a_failed_frame_leaves_no_object_and_the_next_one_works() {
         let shot = Shot::new(gl, &world);
         let canvas = Canvas::new(gl);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
-        renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+        let able = Shot::able(&shot.frame());
+        for technique in &able {
+            renderer.set_technique(*technique).expect("a technique");
+            renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+        }
         let before = live(&gl.gl);
         let attached = Surface { ids: Some(canvas.colors[0]), ..shot.frame().surface };
-        for _ in 0..50 {
+        for round in 0..50 {
+            renderer.set_technique(able[round % able.len()]).expect("a technique");
             let bad = Frame { surface: attached, ..shot.frame() };
             renderer.overlay(&bad, Encoding::Linear).expect_err("attached");
             let bad = Frame { viewport: [0, 0, 0, 10], ..shot.frame() };
@@ -190,28 +201,35 @@ fn a_failed_frame_leaves_no_object_and_the_next_one_works() {
 #[test]
 fn memory_does_not_grow_with_the_lights() {
     in_each_api(|gl| {
-        let counts = [9, 64, 512];
-        let used = counts.map(|count| {
-            let world = many_lights(count);
-            let shot = Shot::new(gl, &world);
-            let _canvas = Canvas::new(gl);
-            let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
-            if renderer.caps().tier != Tier::Es3 {
-                renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
-            }
-            renderer.masks(&shot.frame(), |_| {}).expect("the frame is right");
-            (live(&gl.gl), sizes(gl))
-        });
-        for (count, (objects, (textures, buffers))) in counts.iter().zip(&used) {
-            let (first_objects, (first_textures, first_buffers)) = &used[0];
-            assert_eq!(objects, first_objects, "objects for {count} lights");
-            assert_eq!(textures, first_textures, "sizes of textures for {count} lights");
-            let [bytes, first] = [buffers, first_buffers].map(|b| b.iter().sum::<i32>());
-            assert!(
-                first > 0 && bytes <= 2 * first,
-                "{bytes} bytes for {count} lights, {first} for {}",
-                counts[0]
-            );
+        for technique in Shot::able(&Shot::new(gl, &many_lights(1)).frame()) {
+            memory_by_lights(gl, technique);
         }
     });
+}
+
+fn memory_by_lights(gl: &Gl, technique: Technique) {
+    let counts = [9, 64, 512];
+    let used = counts.map(|count| {
+        let world = many_lights(count);
+        let shot = Shot::new(gl, &world);
+        let _canvas = Canvas::new(gl);
+        let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+        renderer.set_technique(technique).expect("a technique");
+        if renderer.caps().tier != Tier::Es3 {
+            renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+        }
+        renderer.masks(&shot.frame(), |_| {}).expect("the frame is right");
+        (live(&gl.gl), sizes(gl))
+    });
+    for (count, (objects, (textures, buffers))) in counts.iter().zip(&used) {
+        let (first_objects, (first_textures, first_buffers)) = &used[0];
+        assert_eq!(objects, first_objects, "{technique}: objects for {count} lights");
+        assert_eq!(textures, first_textures, "{technique}: sizes of textures for {count} lights");
+        let [bytes, first] = [buffers, first_buffers].map(|b| b.iter().sum::<i32>());
+        assert!(
+            first > 0 && bytes <= 2 * first,
+            "{technique}: {bytes} bytes for {count} lights, {first} for {}",
+            counts[0]
+        );
+    }
 }

@@ -26,3 +26,4 @@ mod state;
 mod steady;
 mod twins;
 mod viewports;
+mod volumes;

@@ -4,7 +4,7 @@ use crate::context::{Gl, in_each_api};
 use crate::lights::{STEP, many_lights, overlay};
 use crate::shot::{Shot, VIEWPORT, read_texture, texture};
 use crate::world::World;
-use antumbra_gl::{Camera, DepthFormat, Encoding, Frame, NormalSpace, Normals, Renderer, Surface};
+use antumbra_gl::{Camera, DepthFormat, Encoding, Frame, NormalSpace, Normals, Renderer, Surface, Technique};
 use glam::{DMat4, DVec3, Vec4};
 use glow::HasContext;
 use std::cell::Cell;
@@ -208,12 +208,12 @@ fn every_sample_has_its_own_shadows() {
         (depth_only.surface.normals, depth_only.surface.ids) = (None, None);
         renderer.masks(&depth_only, |_| {}).expect("the frame is right");
         gl.assert_no_complaint("depth alone");
-        let textures = Cell::new(None);
+        let drawn = Cell::new(None);
         alpha_switches(gl, true);
-        renderer.masks(&frame, |batch| textures.set(Some(batch.textures))).expect("the frame is right");
+        renderer.masks(&frame, |batch| drawn.set(Some(batch.textures))).expect("the frame is right");
         alpha_switches(gl, false);
         gl.assert_no_complaint("masks");
-        let textures = textures.take().expect("one batch");
+        let textures = drawn.take().expect("one batch");
         for (sample, shot) in shots.iter().enumerate() {
             let truth = world.truth(shot);
             let texels = read_sample(gl, textures[0], SIZE, sample as i32);
@@ -222,6 +222,25 @@ fn every_sample_has_its_own_shadows() {
                 truth.assert_mask(light, &mask);
             }
         }
+        for counting in ["per-volume", "depth-fail"] {
+            let technique = Technique::parse(&format!("volume:counting={counting}")).expect("a technique");
+            renderer.set_technique(technique).expect("a technique");
+            renderer.masks(&frame, |batch| drawn.set(Some(batch.textures))).expect("the frame is right");
+            gl.assert_no_complaint("masks");
+            let textures = drawn.take().expect("one batch");
+            for (sample, shot) in shots.iter().enumerate() {
+                let texels = read_sample(gl, textures[0], SIZE, sample as i32);
+                for light in 0..world.lights.len() {
+                    let mask: Vec<u8> = texels.iter().map(|t| (t[light] * 255.0).round() as u8).collect();
+                    world.truth(shot).assert_classified(
+                        light,
+                        &mask,
+                        &format!("{technique}, sample {sample}"),
+                    );
+                }
+            }
+        }
+        renderer.set_technique(Technique::default()).expect("a technique");
         let (colors, canvas) = multisampled(gl, SIZE, &[glow::RGBA8]);
         // SAFETY: clears the bound framebuffer.
         unsafe { gl.gl.clear_buffer_f32_slice(glow::COLOR, 0, &[1.0; 4]) };

@@ -3,7 +3,7 @@
 use crate::context::Gl;
 use crate::world::World;
 use antumbra_gl::{
-    Camera, DepthFormat, Frame, MaskBatch, NO_SHADOW, NormalSpace, Normals, Renderer, Surface,
+    Camera, DepthFormat, Frame, MaskBatch, NO_SHADOW, NormalSpace, Normals, Renderer, Surface, Technique,
 };
 use antumbra_reference::Surface as Seen;
 use bytemuck::Pod;
@@ -97,6 +97,13 @@ impl<'w> Shot<'w> {
             ambient: self.world.ambient,
             ..Frame::new(self.camera, self.viewport, surface)
         }
+    }
+
+    /// The techniques that can do a frame, with their default options.
+    pub(crate) fn able(frame: &Frame<'_>) -> Vec<Technique> {
+        let able: Vec<_> = Technique::all().filter(|t| t.refusal(&frame.scenery()).is_none()).collect();
+        assert!(able.len() > 1, "analytic, and others");
+        able
     }
 
     /// Masks of all lights, a byte a pixel; as many vectors as lights.

@@ -5,7 +5,7 @@ use crate::lights::many_lights;
 use crate::odd_host::OddHost;
 use crate::shot::{Canvas, Shot, VIEWPORT};
 use crate::snapshot::{assert_same, has_indexed_switches, snapshot};
-use antumbra_gl::{DepthFormat, Encoding, Error, Frame, Renderer, Surface, Tier};
+use antumbra_gl::{DepthFormat, Encoding, Error, Frame, Renderer, Surface, Technique, Tier};
 use glam::DMat4;
 use glow::HasContext;
 
@@ -49,24 +49,31 @@ fn every_call_leaves_the_state_as_it_was() {
         };
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         check("Renderer::new");
-        renderer.warm_up(&shot.frame().surface, &[]).expect("shaders");
-        check("warm_up");
-        let float = renderer.caps().tier != Tier::Es3;
-        for frame in [shot.frame(), many_shot.frame(), depth_only(&shot)] {
-            if float || frame.lights.len() <= 8 {
-                renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
-                check("overlay");
-                renderer.overlay(&frame, Encoding::Gamma(2.2)).expect("the frame is right");
-                check("overlay in gamma");
+        for technique in Shot::able(&shot.frame()) {
+            eprintln!("{technique}");
+            renderer.set_technique(technique).expect("a technique");
+            check("set_technique");
+            renderer.warm_up(&shot.frame().surface, &[]).expect("shaders");
+            check("warm_up");
+            let float = renderer.caps().tier != Tier::Es3;
+            for frame in [shot.frame(), many_shot.frame(), depth_only(&shot)] {
+                if float || frame.lights.len() <= 8 {
+                    renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
+                    check("overlay");
+                    renderer.overlay(&frame, Encoding::Gamma(2.2)).expect("the frame is right");
+                    check("overlay in gamma");
+                }
+                renderer
+                    .masks(&frame, |_| check("masks, in the host's closure"))
+                    .expect("the frame is right");
+                check("masks");
             }
-            renderer.masks(&frame, |_| check("masks, in the host's closure")).expect("the frame is right");
-            check("masks");
-        }
-        for (what, frame) in bad_frames(&shot, &host.canvas) {
-            renderer.overlay(&frame, Encoding::Linear).expect_err(what);
-            check(what);
-            let _ = renderer.masks(&frame, |_| {});
-            check(what);
+            for (what, frame) in bad_frames(&shot, &host.canvas) {
+                renderer.overlay(&frame, Encoding::Linear).expect_err(what);
+                check(what);
+                let _ = renderer.masks(&frame, |_| {});
+                check(what);
+            }
         }
         drop(renderer);
         check("dropping the renderer");
@@ -104,12 +111,13 @@ struct Drawn {
 }
 
 /// Draws twice, and the masks once, in a calm context or in an odd one.
-fn draw_under(gl: &Gl, odd: bool, count: usize) -> Drawn {
+fn draw_under(gl: &Gl, technique: Technique, odd: bool, count: usize) -> Drawn {
     let world = many_lights(count);
     let shot = Shot::new(gl, &world);
     let mut masks = Vec::new();
     let host = if odd { Ok(OddHost::new(gl, SIZE)) } else { Err(Canvas::white(gl, SIZE, 2)) };
     let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
+    renderer.set_technique(technique).expect("a technique");
     renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
     // The overlay's second frame goes through everything that the first one set up.
     renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
@@ -145,8 +153,10 @@ fn draw_under(gl: &Gl, odd: bool, count: usize) -> Drawn {
 fn an_odd_host_gets_the_same_picture() {
     in_each_api(|gl| {
         let float = Renderer::new(gl.gl.clone()).expect("a renderer").caps().tier != Tier::Es3;
-        for count in if float { &[3, 20][..] } else { &[3] } {
-            let [plain, odd] = [false, true].map(|odd| draw_under(gl, odd, *count));
+        let able = Shot::able(&Shot::new(gl, &many_lights(3)).frame());
+        let counts = if float { &[3, 20][..] } else { &[3] };
+        for (technique, count) in able.iter().flat_map(|t| counts.iter().map(move |count| (*t, count))) {
+            let [plain, odd] = [false, true].map(|odd| draw_under(gl, technique, odd, *count));
             assert!(plain.picture.iter().any(|texel| texel[0] < 200), "there are shadows");
             for drawn in [&plain, &odd] {
                 assert!(
@@ -154,8 +164,14 @@ fn an_odd_host_gets_the_same_picture() {
                     "the second buffer is left alone"
                 );
             }
-            assert!(odd.picture == plain.picture, "{count} lights: the picture depends on the host's state");
-            assert!(odd.masks == plain.masks, "{count} lights: the masks depend on the host's state");
+            assert!(
+                odd.picture == plain.picture,
+                "{technique}, {count} lights: the picture depends on the host's state"
+            );
+            assert!(
+                odd.masks == plain.masks,
+                "{technique}, {count} lights: the masks depend on the host's state"
+            );
         }
     });
 }

@@ -258,6 +258,23 @@ impl Truth<'_> {
         assert!(count.dark > 100 && count.light > 100, "there are shadows and light to look at: {count:?}");
     }
 
+    /// Asserts that a light's mask, of a technique without antialiasing, is on the right side of one half wherever
+    /// that is sure and the light would arrive.
+    pub(crate) fn assert_classified(&self, light: usize, mask: &[u8], what: &str) {
+        assert_eq!(mask.len(), self.sure.len(), "a pixel each");
+        let counts = |i: &usize| self.sure[*i] && self.lights[light][*i].1 != Vec3::ZERO;
+        let wrong: Vec<usize> = (0..mask.len())
+            .filter(counts)
+            .filter(|&i| (mask[i] >= 128) != (self.lights[light][i].0 >= 0.5))
+            .collect();
+        assert!(
+            wrong.is_empty(),
+            "{what}, light {light}: {} pixels are wrong: {:?}",
+            wrong.len(),
+            &wrong[..wrong.len().min(99)]
+        );
+    }
+
     /// Asserts that a light's mask is its visibility, 0 or 255, wherever that is sure and the
     /// light would arrive at all, but for [`SEAMS`], and everywhere within [`SLIVER`] of what it is
     /// over the pixel's area.
