@@ -22,6 +22,7 @@ mod stencil;
 mod surface;
 pub mod technique;
 mod tiles;
+mod union;
 mod view;
 
 pub use caps::{Caps, Tier};

@@ -75,7 +75,7 @@ impl Overlay {
         variant: Variant,
         lights: &[Light],
     ) -> Result<(), Error> {
-        self.programs.ensure(gl, caps, &OVERLAY_PROGRAMS, variant, lights)
+        self.programs.ensure(gl, caps, &OVERLAY_PROGRAMS, variant, lights, false)
     }
 
     /// Makes and clears the sums over batches, for frames of several.

@@ -4,6 +4,7 @@ use crate::proxy::ProxyBuilder;
 use crate::scenery::{Light, Occluder};
 use crate::soft_pairs::{AreaLight, SOFT_SHAPES};
 use crate::tiles::TileGrid;
+use crate::union::UnionBuilder;
 use crate::view::View;
 use antumbra_math::blocking::{Blocker, Blockers};
 use antumbra_math::{Plane, Shape};
@@ -38,8 +39,8 @@ pub(crate) struct Draw {
 
 /// Kinds of blocker of lights without extent: sphere, disc, polygon.
 pub(crate) const HARD_KINDS: usize = 3;
-/// All kinds: after those, each shape past a ball, and past a flat light.
-const KINDS: usize = HARD_KINDS + 2 * SOFT_SHAPES;
+/// All kinds: after those, each shape past a ball, and past a flat light; all shapes past a ball, and past a flat light.
+const KINDS: usize = HARD_KINDS + 2 * SOFT_SHAPES + 2;
 const LISTS: usize = KINDS * (BATCH_LIGHTS / GROUP_LIGHTS);
 
 /// Packs batches; keeps its memory from one to the next.
@@ -48,7 +49,9 @@ pub(crate) struct PairBuilder {
     shapes_vs: Vec<(Shape, u32, DVec3, f64)>,
     bounds_vs: Vec<Plane>,
     proxy: ProxyBuilder,
-    lists: [Vec<Vertex>; LISTS],
+    union: UnionBuilder,
+    /// [`LISTS`] of them.
+    lists: Vec<Vec<Vertex>>,
     /// What the blockers' data texture is to hold.
     pub(crate) texels: Vec<Vec4>,
     /// What the vertex buffer is to hold.
@@ -79,8 +82,10 @@ impl PairBuilder {
     }
 
     /// Packs the pairs of up to [`BATCH_LIGHTS`] lights, and touches the tiles that their polygons do.
-    pub(crate) fn pack(&mut self, lights: &[Light], view: &View, tiles: &mut TileGrid) {
+    /// `exact` puts what occluders hide of an area light together as a union.
+    pub(crate) fn pack(&mut self, lights: &[Light], view: &View, tiles: &mut TileGrid, exact: bool) {
         self.texels.clear();
+        self.lists.resize_with(LISTS, Vec::new);
         self.lists.iter_mut().for_each(Vec::clear);
         for (i, light) in lights.iter().enumerate() {
             if light.intensity == glam::Vec3::ZERO {
@@ -89,7 +94,7 @@ impl PairBuilder {
             let place = light.place.transformed(&view.view);
             match AreaLight::new(light.area, place.homogeneous().truncate(), &view.view) {
                 None => self.pack_light(i, &place, view, tiles),
-                Some(area) => self.pack_area_light(i, &area, &place, view, tiles),
+                Some(area) => self.pack_area_light(i, &area, &place, view, tiles, exact),
             }
         }
         self.vertices.clear();
@@ -142,14 +147,20 @@ impl PairBuilder {
         place: &antumbra_math::Light,
         view: &View,
         tiles: &mut TileGrid,
+        exact: bool,
     ) {
+        self.union.begin(view.size());
+        let light_texel = self.texels.len();
+        if exact {
+            area.pack(&mut self.texels);
+        }
         for &(shape, id, ..) in &self.shapes_vs {
             self.counts.0 += 1;
             if area.is_beside(&shape) && hides_its_own_shadow(&shape, id, place) {
                 continue;
             }
             let first = self.texels.len();
-            let Some(kind) = area.pack_pair(&shape, &mut self.texels) else { continue };
+            let Some(kind) = area.pack_pair(&shape, &mut self.texels, exact) else { continue };
             let (outline, origins) = area.outline(&shape);
             let polygon = self.proxy.bound_from(&outline, id == 0, origins.iter(), view, &self.bounds_vs);
             if polygon.len() < 3 {
@@ -158,9 +169,21 @@ impl PairBuilder {
             }
             self.counts.1 += 1;
             tiles.touch(polygon);
+            if exact {
+                self.union.add(polygon, kind % SOFT_SHAPES, first, id);
+                continue;
+            }
             let list = &mut self.lists[index / GROUP_LIGHTS * KINDS + HARD_KINDS + kind];
             let blocker = first as u32 * 4 + (index % GROUP_LIGHTS) as u32;
             pack_polygon(list, polygon, view.size(), blocker, id);
+        }
+        if exact {
+            let kind = HARD_KINDS + 2 * SOFT_SHAPES + usize::from(!area.is_ball());
+            let list = &mut self.lists[index / GROUP_LIGHTS * KINDS + kind];
+            self.union.pack(light_texel, &mut self.texels, |corners, first| {
+                let blocker = first as u32 * 4 + (index % GROUP_LIGHTS) as u32;
+                pack_polygon(list, &corners, view.size(), blocker, 0);
+            });
         }
     }
 }

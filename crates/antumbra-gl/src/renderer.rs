@@ -136,7 +136,8 @@ impl Renderer {
         }
         let variant = Variant::of(surface);
         let loaded = self.loaded[self.technique.index()].as_mut().expect("set_technique has made it");
-        loaded.programs.ensure(&self.gl, &self.caps, self.technique.programs(), variant, lights)?;
+        let (sources, exact) = (self.technique.programs(), self.technique.is_exact());
+        loaded.programs.ensure(&self.gl, &self.caps, sources, variant, lights, exact)?;
         self.overlay.warm_up(&self.gl, &self.caps, variant, lights)
     }
 

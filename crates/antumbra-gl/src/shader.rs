@@ -34,6 +34,10 @@ pub(crate) enum LightKind {
     Ball,
     /// Discs and rectangles.
     Flat,
+    /// Balls, past several occluders at once.
+    ExactBall,
+    /// Discs and rectangles, past several occluders at once.
+    ExactFlat,
 }
 
 impl LightKind {
@@ -196,7 +200,8 @@ pub(crate) struct ProgramSet {
 }
 
 impl ProgramSet {
-    /// Compiles the programs of a variant that such lights need, unless it was done.
+    /// Compiles the programs of a variant that such lights need, unless it was done; `exact` for those that look at
+    /// several occluders at once too.
     pub(crate) fn ensure(
         &mut self,
         gl: &glow::Context,
@@ -204,12 +209,20 @@ impl ProgramSet {
         sources: &[ProgramSource],
         variant: Variant,
         lights: &[Light],
+        exact: bool,
     ) -> Result<(), Error> {
         let programs = &mut self.variants[variant.index()];
         if programs.is_empty() {
             programs.extend(sources.iter().map(|_| None));
         }
-        let has = |kind| lights.iter().any(|light| LightKind::of(light) == kind);
+        let has = |kind| {
+            let (kind, wanted) = match kind {
+                LightKind::ExactBall => (LightKind::Ball, exact),
+                LightKind::ExactFlat => (LightKind::Flat, exact),
+                kind => (kind, true),
+            };
+            wanted && lights.iter().any(|light| LightKind::of(light) == kind)
+        };
         for (slot, source) in programs.iter_mut().zip(sources).filter(|(slot, _)| slot.is_none()) {
             if source.lights == LightKind::Any || has(source.lights) {
                 *slot = Some(Program::new(gl, caps, source, variant)?);

@@ -38,8 +38,13 @@ impl AreaLight {
         Some(Self { center, radius, area })
     }
 
-    /// Appends its texels; whether it is a ball.
-    fn pack(&self, texels: &mut Vec<Vec4>) -> bool {
+    /// Whether it is a ball, and not flat.
+    pub(crate) fn is_ball(&self) -> bool {
+        matches!(self.area, Area::None | Area::Sphere { .. })
+    }
+
+    /// Appends its texels.
+    pub(crate) fn pack(&self, texels: &mut Vec<Vec4>) {
         let texel = |v: DVec3, w: f64| v.as_vec3().extend(w as f32);
         match self.area {
             Area::None | Area::Sphere { .. } => texels.push(texel(self.center, self.radius)),
@@ -53,18 +58,20 @@ impl AreaLight {
                 texel(half_up, 0.0),
             ]),
         }
-        matches!(self.area, Area::None | Area::Sphere { .. })
     }
 
     /// Appends the pair's texels as `soft.frag.glsl` reads them, and says which of its programs that is; `None` for
-    /// shapes without extent, which hide nothing.
-    pub(crate) fn pack_pair(&self, shape: &Shape, texels: &mut Vec<Vec4>) -> Option<usize> {
+    /// shapes without extent, which hide nothing. With `alone` the shape's texels alone, as `union.frag.glsl` reads
+    /// them.
+    pub(crate) fn pack_pair(&self, shape: &Shape, texels: &mut Vec<Vec4>, alone: bool) -> Option<usize> {
         let (_, extent) = shape.bounding_sphere();
         if !(extent > 0.0) {
             return None;
         }
         let first = texels.len();
-        let round = self.pack(texels);
+        if !alone {
+            self.pack(texels);
+        }
         let texel = |v: DVec3, w: f64| v.as_vec3().extend(w as f32);
         let kind = match *shape {
             Shape::Sphere(s) => {
@@ -77,6 +84,9 @@ impl AreaLight {
             }
             Shape::Triangle(s) => {
                 texels.extend(s.vertices.map(|v| texel(v, 0.0)));
+                if alone {
+                    texels.push(texel(s.vertices[2].midpoint(s.vertices[0]), 0.0));
+                }
                 2
             }
             Shape::Rectangle(s) => {
@@ -96,7 +106,7 @@ impl AreaLight {
             texels.truncate(first);
             return None;
         }
-        Some(if round { kind } else { SOFT_SHAPES + kind })
+        Some(if self.is_ball() { kind } else { SOFT_SHAPES + kind })
     }
 
     /// Whether the light is all on one side of a plane.

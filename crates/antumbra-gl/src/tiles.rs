@@ -27,6 +27,11 @@ impl TileGrid {
         self.touched.resize(self.columns * self.rows, false);
     }
 
+    /// No tile is touched any more, in the same viewport.
+    pub(crate) fn reset_touched(&mut self) {
+        self.touched.fill(false);
+    }
+
     /// Touches every tile.
     pub(crate) fn touch_all(&mut self) {
         self.touched.fill(true);
@@ -86,6 +91,23 @@ impl TileGrid {
             let corners = [a, DVec2::new(b.x, a.y), b, a, b, DVec2::new(a.x, b.y)];
             vertices.extend(corners.map(|p| (p / self.size * 2.0 - 1.0).as_vec2().to_array()));
         });
+    }
+
+    /// How many tiles there are.
+    pub(crate) fn len(&self) -> usize {
+        self.touched.len()
+    }
+
+    /// The indices of the touched tiles.
+    pub(crate) fn touched(&self) -> impl Iterator<Item = usize> {
+        self.touched.iter().enumerate().filter_map(|(i, touched)| touched.then_some(i))
+    }
+
+    /// The corners of a tile, in pixels, in order.
+    pub(crate) fn corners(&self, tile: usize) -> [DVec2; 4] {
+        let (x, y) = (tile % self.columns, tile / self.columns);
+        let corner = |x: usize, y: usize| (DVec2::new(x as f64, y as f64) * TILE).min(self.size);
+        [corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)]
     }
 
     /// Calls `rectangle` with the lower left and the upper right corner, in pixels, of runs of

@@ -181,3 +181,18 @@ fn other_pairs() {
         }
     }
 }
+
+/// Four occluders that overlap on the light: the union within the bound; the product, which is faster, as far off as it
+/// is.
+#[test]
+fn several_occluders() {
+    let shapes = ["sphere", "cone", "rectangle", "disc"];
+    for light in LIGHTS {
+        let exact = Technique::parse("analytic:quality=exact").expect("an option");
+        let Some(found) = compare_all(light, &shapes, 3, exact) else { return };
+        assert!(found.rms() <= 0.004, "{light}: rms {}", found.rms());
+        let Some(fast) = compare_all(light, &shapes, 3, Technique::default()) else { return };
+        assert!(fast.rms() > found.rms(), "{light}: the product is not the union");
+        assert!(fast.rms() <= 0.1, "{light}: product, rms {}", fast.rms());
+    }
+}

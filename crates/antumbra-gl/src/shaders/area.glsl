@@ -5,12 +5,22 @@
 #define NODE_COUNT (NODES + min(int(gl_FragCoord.y), 0))
 #define FAR_AWAY 1e30
 
-// Gauss's nodes for integrands that end like square roots, and their weights.
-const vec2 QUADRATURE[NODES] = vec2[NODES](
+// Gauss's nodes and weights: for integrands that end like square roots, as round lights do, and for any.
+const vec2 CHEBYSHEV[NODES] = vec2[NODES](
     vec2(0.939692620786, 0.119387552184), vec2(0.766044443119, 0.224375203601),
     vec2(0.500000000000, 0.302299894039), vec2(0.173648177667, 0.343762755785),
     vec2(-0.173648177667, 0.343762755785), vec2(-0.500000000000, 0.302299894039),
     vec2(-0.766044443119, 0.224375203601), vec2(-0.939692620786, 0.119387552184));
+
+const vec2 LEGENDRE[NODES] = vec2[NODES](
+    vec2(0.960289856498, 0.101228536290), vec2(0.796666477414, 0.222381034453),
+    vec2(0.525532409916, 0.313706645878), vec2(0.183434642496, 0.362683783378),
+    vec2(-0.183434642496, 0.362683783378), vec2(-0.525532409916, 0.313706645878),
+    vec2(-0.796666477414, 0.222381034453), vec2(-0.960289856498, 0.101228536290));
+
+vec2 quadrature(bool round, int i) {
+    return round ? CHEBYSHEV[i] : LEGENDRE[i];
+}
 
 // Directions origin + x right + y up, over the unit disc or the square |x|, |y| < 1.
 struct LightPatch {
@@ -122,8 +132,9 @@ float strips_whole(Strips s) {
     float middle = (rows.x + rows.y) * 0.5;
     float sum = 0.0;
     for (int i = 0; i < NODE_COUNT; i++) {
-        float y = middle + half_rows * QUADRATURE[i].x;
-        sum += QUADRATURE[i].y * strips_irradiance(s, y, strips_seen(s, y));
+        vec2 node = quadrature(s.round, i);
+        float y = middle + half_rows * node.x;
+        sum += node.y * strips_irradiance(s, y, strips_seen(s, y));
     }
     return sum * half_rows;
 }

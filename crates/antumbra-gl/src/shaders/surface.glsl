@@ -36,6 +36,11 @@ struct SurfacePoint {
     float tolerance;   // distances below this are rounding of the depth buffer and of float32
 };
 
+// Whether the surface is the occluder of that id. What the host does not draw, 0, is nobody's.
+bool is_own(SurfacePoint s, uint id) {
+    return s.has_id && id != 0u && s.id == id;
+}
+
 float surface_depth(ivec2 texel) {
     return texelFetch(u_depth, clamp(texel, u_surface_range.xy, u_surface_range.zw), SURFACE_INDEX).x;
 }

@@ -4,7 +4,7 @@
 //! `antumbra_math::blocking` gives the visibility, blended by minimum: for lights without extent that is the
 //! union of the occluders. Theory: docs/theory/analytic.md.
 
-use super::options::options;
+use super::options::{choices, options};
 use super::{About, Batch, Method, Part, Pass, Refusal};
 use crate::pairs::{HARD_KINDS, PairBuilder, Vertex};
 use crate::resources::UploadRing;
@@ -21,9 +21,23 @@ pub(super) const ABOUT: About = About {
     falls_on: "anything",
 };
 
+choices! {
+    /// How the shadows that several occluders cast from one light with an area are put together. Of lights without
+    /// area the union is exact in any case.
+    pub enum Quality {
+        /// By the product of what each leaves: exact where they do not hide the same part of the light.
+        Fast = "fast",
+        /// By the union of what they hide, on 24 strips of the light: several times the cost.
+        Exact = "exact",
+    }
+}
+
 options! {
-    /// Options of the technique `analytic`: none, it has nothing to tune.
-    pub struct Options {}
+    /// Options of the technique `analytic`.
+    pub struct Options {
+        /// Where the shadows of several occluders overlap.
+        pub quality: Quality = Quality::Fast, ();
+    }
 }
 
 macro_rules! blocker_program {
@@ -74,7 +88,37 @@ macro_rules! soft_program {
                     AREA,
                     include_str!("../shaders/analytic/blocker_data.glsl"),
                     include_str!("../shaders/analytic/soft.glsl"),
+                    include_str!("../shaders/analytic/soft_light.glsl"),
                     include_str!("../shaders/analytic/soft.frag.glsl"),
+                ],
+            },
+            uniforms: &[],
+            lights: LightKind::$kind,
+        }
+    };
+}
+
+macro_rules! union_program {
+    ($name:literal, $kind:ident, $light:literal) => {
+        ProgramSource {
+            name: $name,
+            vertex: Stage {
+                defines: "#define BLOCKER_TEXELS 2\n",
+                parts: &[include_str!("../shaders/analytic/blocker.vert.glsl")],
+            },
+            fragment: Stage {
+                defines: concat!(
+                    "#define BLOCKER_TEXELS 2\n#define CORNERS 4\n#define CONE\n#define LIGHT_TEXELS ",
+                    $light,
+                    "\n"
+                ),
+                parts: &[
+                    COVERAGE,
+                    SURFACE,
+                    AREA,
+                    include_str!("../shaders/analytic/soft.glsl"),
+                    include_str!("../shaders/analytic/soft_light.glsl"),
+                    include_str!("../shaders/analytic/union.frag.glsl"),
                 ],
             },
             uniforms: &[],
@@ -101,6 +145,8 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
     soft_program!("flat light, rectangle", Flat, "4", "8", "CORNERS 4"),
     soft_program!("flat light, cone", Flat, "4", "6", "CONE"),
     soft_program!("flat light, plane", Flat, "4", "5", "PLANE"),
+    union_program!("sphere light, all", ExactBall, "1"),
+    union_program!("flat light, all", ExactFlat, "4"),
 ];
 
 pub(super) fn refusal(_: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
@@ -131,7 +177,7 @@ impl Method for State {
     }
 
     unsafe fn draw_visibility(&mut self, pass: &Pass<'_>, batch: &mut Batch<'_>) -> Result<(), Error> {
-        self.pairs.pack(batch.lights, pass.view, batch.tiles);
+        self.pairs.pack(batch.lights, pass.view, batch.tiles, pass.technique.is_exact());
         if self.pairs.draws.is_empty() {
             return Ok(());
         }

@@ -109,6 +109,12 @@ techniques! {
 }
 
 impl Technique {
+    /// Whether it looks at several occluders of an area light at once.
+    pub(crate) fn is_exact(&self) -> bool {
+        use analytic::{Options, Quality};
+        matches!(self, Self::Analytic(Options { quality: Quality::Exact }))
+    }
+
     /// The technique that `text` says: a name from [`Self::NAMES`], then `:key=value` for options.
     ///
     /// # Errors

@@ -117,7 +117,7 @@ pub fn visibility<V: Vector>(
     visibility_of(light, occluders, point, normal, nodes, |hidden, strips| {
         let rows = hidden.iter().fold(Interval::empty(), |rows, one| rows.hull(one.rows()));
         let mut intervals: Vec<Interval<V::Real>> = Vec::with_capacity(hidden.len());
-        nodes.integrate(rows.and(strips.rows()), |y| {
+        nodes.integrate(strips.round, rows.and(strips.rows()), |y| {
             let seen = strips.seen(y);
             intervals.clear();
             intervals.extend(hidden.iter().map(|one| one.interval(y).and(seen)).filter(|i| !i.is_empty()));

@@ -109,10 +109,10 @@ impl<R: Real> Hidden<R> {
     /// The irradiance that it takes, in the units of [`Strips::irradiance`].
     pub(super) fn taken(&self, strips: &Strips<R>, nodes: &Nodes<R>) -> R {
         let hidden = |y| self.interval(y).and(strips.seen(y));
-        let rows = nodes.support(self.rows().and(strips.rows()), |y| {
+        let rows = nodes.support(strips.round, self.rows().and(strips.rows()), |y| {
             let hidden = hidden(y);
             hidden.high - hidden.low
         });
-        nodes.integrate(rows, |y| strips.irradiance(y, hidden(y)))
+        nodes.integrate(strips.round, rows, |y| strips.irradiance(y, hidden(y)))
     }
 }

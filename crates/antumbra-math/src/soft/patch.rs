@@ -128,7 +128,8 @@ pub struct Strips<R: Real> {
     shift: R,
     /// Coefficients of the squared distance of the strip at y from the point, in units of x: 1, 2 y, y².
     apart: [R; 3],
-    round: bool,
+    /// Whether the light is round.
+    pub round: bool,
 }
 
 impl<R: Real> Strips<R> {
@@ -182,7 +183,7 @@ impl<R: Real> Strips<R> {
 
     /// The irradiance of the whole patch, in the units of [`Self::irradiance`].
     pub fn whole(&self, nodes: &Nodes<R>) -> R {
-        nodes.integrate(self.rows(), |y| self.irradiance(y, self.seen(y)))
+        nodes.integrate(self.round, self.rows(), |y| self.irradiance(y, self.seen(y)))
     }
 }
 

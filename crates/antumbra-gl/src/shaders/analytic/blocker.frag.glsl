@@ -8,7 +8,7 @@ layout(location = 0) out vec4 o_visibility;
 
 void main() {
     SurfacePoint s;
-    if (!surface_point(s) || !s.receives || (s.has_id && s.id == v_id)) {
+    if (!surface_point(s) || !s.receives || is_own(s, v_id)) {
         discard;
     }
     float coverage = blocker_coverage(surface_footprint(s), s);

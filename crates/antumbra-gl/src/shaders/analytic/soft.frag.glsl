@@ -10,26 +10,9 @@ layout(location = 0) out vec4 o_visibility;
 
 #define SHAPE(k) BLOCKER_DATA[LIGHT_TEXELS + (k)]
 
-// Half the width, in pixels, that a penumbra has at least.
-#define HALF_WIDTH 0.75
-
-// Edges of penumbrae that are narrower than a pixel would be jagged: the light is taken for wide enough. `apart` is the
-// occluder's distance: a pixel's patch of the receiver sees its edge move on the light by `shift`.
-LightPatch antialiased(LightPatch p, Footprint f, float apart) {
-    vec3 a = cross(p.origin, f.dx);
-    vec3 b = cross(p.origin, f.dy);
-    float pixel = sqrt(0.5 * (dot(a, a) + dot(b, b))) * HALF_WIDTH;
-    float shift = pixel * max(1.0 / max(apart, 1e-6 * p.reach) - 1.0 / p.reach, 0.0);
-    float square = max(dot(p.right, p.right), 1e-30);
-    float widen = max(1.0, shift * inversesqrt(square));
-    p.right *= widen;
-    p.up *= widen;
-    return p;
-}
-
 void main() {
     SurfacePoint s;
-    if (!surface_point(s) || !s.receives || (s.has_id && s.id == v_id)) {
+    if (!surface_point(s) || !s.receives || is_own(s, v_id)) {
         discard;
     }
     vec3 normal = surface_normal(s);
@@ -103,13 +86,7 @@ void main() {
 #endif
     Strips strips = strips_of(p, normal);
     float taken = hidden_irradiance(hidden, strips);
-#if LIGHT_TEXELS == 1
-    // The closed form of a ball, in the units of the strips.
-    float tangent_2 = dot(p.right, p.right);
-    float whole = cap_irradiance(sqrt(tangent_2 / (1.0 + tangent_2)), dot(normal, p.origin)) * 3.141592653589793 / tangent_2;
-#else
-    float whole = strips_whole(strips);
-#endif
+    float whole = light_whole(p, strips, normal);
     float dark = solid ? 1.0 : hides ? clamp(taken / max(whole, 1e-30), 0.0, 1.0) : 0.0;
     if (!(dark > 0.0)) {
         discard;

@@ -2,7 +2,7 @@
 //
 // One of CONIC (a ball or a disc), CORNERS n (a polygon), CONE and PLANE says what hides.
 
-#ifdef CONE
+#if defined(CONE) && !defined(CORNERS)
 #define CORNERS 3
 #endif
 
@@ -212,7 +212,8 @@ vec2 hidden_support(Hidden h, Strips strips) {
     vec4 above = vec4(0.0);  // a strip inside and its width, the next one outside, and its
     vec4 below = vec4(0.0);
     for (int i = 0; i < NODE_COUNT; i++) {
-        float y = middle + half_rows * QUADRATURE[i].x;
+        vec2 node = quadrature(strips.round, i);
+        float y = middle + half_rows * node.x;
         float width = hidden_width(h, strips, y);
         bool inside = width > 0.0;
         bool begins = inside && !found;
@@ -234,9 +235,10 @@ float hidden_irradiance(Hidden h, Strips strips) {
     float middle = (rows.x + rows.y) * 0.5;
     float sum = 0.0;
     for (int i = 0; i < NODE_COUNT; i++) {
-        float y = middle + half_rows * QUADRATURE[i].x;
+        vec2 node = quadrature(strips.round, i);
+        float y = middle + half_rows * node.x;
         vec2 hidden = interval_and(hidden_interval(h, y), strips_seen(strips, y));
-        sum += QUADRATURE[i].y * strips_irradiance(strips, y, hidden);
+        sum += node.y * strips_irradiance(strips, y, hidden);
     }
     return half_rows > 0.0 ? sum * half_rows : 0.0;
 }
