@@ -9,7 +9,7 @@ use crate::targets::{ColorFormat, Targets};
 use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3};
 use antumbra::math::Plane;
 use antumbra::{
-    Area, Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface, Technique,
+    Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface, Technique,
 };
 use antumbra_scene::{Moment, Primitive, Scene};
 use glow::HasContext;

@@ -36,6 +36,7 @@ fn mistakes_say_what_to_write() {
     assert!(of("analytic:").contains("there is no option"), "{}", of("analytic:"));
 }
 
+#[expect(unreachable_pub, reason = "the macros declare what a crate makes public")]
 mod own {
     use crate::technique::options::{Options as _, choices, options};
 

@@ -72,11 +72,9 @@ impl<R: Real> Nodes<R> {
                     };
                 }
                 support.low = interval.low;
-            } else if let (Some((y_in, inside)), false) = (last, support.is_empty()) {
-                if inside > R::ZERO {
-                    support.low = crossing((y_in, inside), (y, here), &mut value);
-                    return support;
-                }
+            } else if let Some(inside) = last.filter(|(_, width)| *width > R::ZERO) {
+                support.low = crossing(inside, (y, here), &mut value);
+                return support;
             }
             last = Some((y, here));
         }
