@@ -12,10 +12,10 @@ use std::fmt::Write;
 const WIDTH: u32 = 960;
 const HEIGHT: u32 = 600;
 /// Every so many pixels, across and down, one is looked at.
-const STEP: u32 = 7;
+const STEP: u32 = 9;
 
 /// Points of the light for each pixel in a penumbra.
-const SAMPLES: u32 = 1 << 13;
+const SAMPLES: u32 = 1 << 12;
 
 /// What comparisons find inside penumbrae.
 #[derive(Default)]
@@ -51,7 +51,7 @@ fn compare(stage: &mut Stage, scene: &Scene, technique: Technique, found: &mut F
     };
     let drawn = stage.render(scene, &options).expect("the scene draws");
     let tracer = Tracer::new(scene, 0.0);
-    let looked_at = |i: &u32| i % WIDTH % STEP == 3 && i / WIDTH % STEP == 3;
+    let looked_at = |i: &u32| i % WIDTH % STEP == 4 && i / WIDTH % STEP == 4;
     let pixels: Vec<(f64, f64)> = (0..WIDTH * HEIGHT)
         .into_par_iter()
         .filter(looked_at)
@@ -67,9 +67,6 @@ fn compare(stage: &mut Stage, scene: &Scene, technique: Technique, found: &mut F
             }
             let [a, b] = [1, 2].map(|seed| tracer.visibility_at(0, &surface, SAMPLES / 2, i * 2 + seed));
             let drawn = f64::from(drawn.visibility[0][i as usize]);
-            if (drawn - 0.5 * (a + b)).abs() > 0.01 && std::env::var_os("ANTUMBRA_VERBOSE").is_some() {
-                eprintln!("{x} {y}: {drawn:.4} for {a:.4} {b:.4}, irradiance {full:.4}, {surface:?}\n   light {:?} occluders {:?}", scene.lights[0], scene.objects.iter().map(|o| (&o.parts[0].shape, &o.pose)).collect::<Vec<_>>());
-            }
             Some((drawn - 0.5 * (a + b), 0.5 * (a - b)))
         })
         .collect();
@@ -145,6 +142,11 @@ fn scene(random: &mut fastrand::Rng, light: &str, shapes: &[&str]) -> Scene {
     Scene::parse(&text, "soft".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
+/// A factor on the number of scenes, from `ANTUMBRA_CASES`.
+fn more() -> u64 {
+    std::env::var("ANTUMBRA_CASES").map_or(1, |n| n.parse().expect("a number"))
+}
+
 fn compare_all(light: &str, shapes: &[&str], scenes: u64, technique: Technique) -> Option<Found> {
     let context = common::context(Api::Gl33)?;
     let mut stage = Stage::new(context.gl()).expect("a stage");
@@ -160,14 +162,14 @@ fn compare_all(light: &str, shapes: &[&str], scenes: u64, technique: Technique) 
         found.largest,
         found.truth_error()
     );
-    assert!(found.pixels > 100 * scenes as usize, "there are penumbrae to look at");
+    assert!(found.pixels > 50 * scenes as usize, "there are penumbrae to look at");
     Some(found)
 }
 
 /// The closed form's own error is the quadrature's, 0.0006 (antumbra-math's tests); the bound is that of the project.
 #[test]
 fn a_ball_past_a_glowing_ball() {
-    let Some(found) = compare_all("sphere", &["sphere"], 20, Technique::default()) else { return };
+    let Some(found) = compare_all("sphere", &["sphere"], 20 * more(), Technique::default()) else { return };
     assert!(found.rms() <= 0.002, "rms {}", found.rms());
     assert!(found.largest <= 0.01, "largest {}", found.largest);
 }
@@ -176,7 +178,7 @@ fn a_ball_past_a_glowing_ball() {
 fn other_pairs() {
     for light in LIGHTS {
         for shape in ["sphere", "disc", "triangle", "rectangle", "cone"] {
-            let Some(found) = compare_all(light, &[shape], 5, Technique::default()) else { return };
+            let Some(found) = compare_all(light, &[shape], 2 * more(), Technique::default()) else { return };
             assert!(found.rms() <= 0.004, "{light}, {shape}: rms {}", found.rms());
         }
     }
@@ -189,9 +191,9 @@ fn several_occluders() {
     let shapes = ["sphere", "cone", "rectangle", "disc"];
     for light in LIGHTS {
         let exact = Technique::parse("analytic:quality=exact").expect("an option");
-        let Some(found) = compare_all(light, &shapes, 3, exact) else { return };
+        let Some(found) = compare_all(light, &shapes, 2 * more(), exact) else { return };
         assert!(found.rms() <= 0.004, "{light}: rms {}", found.rms());
-        let Some(fast) = compare_all(light, &shapes, 3, Technique::default()) else { return };
+        let Some(fast) = compare_all(light, &shapes, 2 * more(), Technique::default()) else { return };
         assert!(fast.rms() > found.rms(), "{light}: the product is not the union");
         assert!(fast.rms() <= 0.1, "{light}: product, rms {}", fast.rms());
     }
