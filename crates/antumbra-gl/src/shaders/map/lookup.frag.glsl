@@ -9,6 +9,8 @@ uniform mat4 u_planes[6];
 uniform vec4 u_tiles[6];     // first and last texel of a face; none if nothing is in it
 uniform vec4 u_texels[6];    // size of a texel in depth: x plus y * depth; in metres: z plus w * w
 uniform bool u_cube;         // six faces, or the first alone
+uniform vec3 u_beyond[4];    // infinite planes beyond the border of a directional light's map: depth for a texel to the
+uniform int u_beyond_count;  // right, for one up, and at the first texel's corner
 uniform vec4 u_place;        // light space: (0, 0, 0, 1), or the direction to the light and 0
 uniform vec4 u_bias;         // constant, slope, normal offset, radius of the filter: texels, but for the slope
 uniform vec4 u_channel;
@@ -41,10 +43,23 @@ float kept_depth(int face, vec2 texel) {
     return inside ? texelFetch(u_map, ivec2(texel), 0).x : 0.0;
 }
 
+// Whether a texel keeps something nearer to the light than `depth`. One with nothing in it has 0: it blocks nothing, not
+// even beyond the map's far end.
+bool texel_blocks(int face, vec2 texel, float depth) {
+    bool blocks = kept_depth(face, texel) > max(depth, 0.0);
+    vec4 tile = u_tiles[face];
+    bool inside = all(greaterThanEqual(texel, tile.xy)) && all(lessThanEqual(texel, tile.zw));
+    int beyond = inside ? 0 : u_beyond_count;
+    for (int i = 0; i < beyond; i++) {
+        blocks = blocks || dot(u_beyond[i].xy, texel + 0.5) + u_beyond[i].z > depth;
+    }
+    return blocks;
+}
+
 // Whether the light reaches the plane of the receiver where the texel's middle sees it.
 float texel_is_lit(int face, MapPoint at, float bias, vec2 texel) {
     float depth = at.depth + dot(at.slope, texel + 0.5 - at.texel) + bias;
-    return kept_depth(face, texel) > depth ? 0.0 : 1.0;
+    return texel_blocks(face, texel, depth) ? 0.0 : 1.0;
 }
 
 // The mean over a square of texels around a point, partial texels by their share.

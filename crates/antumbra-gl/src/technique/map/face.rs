@@ -1,7 +1,8 @@
 //! What a light sees through a window: one face of its map.
 
 use super::bounds::Bounds;
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use antumbra_math::Plane;
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Vec3};
 
 /// A rectangle of what a light sees: tangents of angles for a light at a point, metres for a directional one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -179,6 +180,15 @@ impl Face {
         let half = DVec2::splat(0.5 * size);
         let scale = DMat4::from_scale(half.extend(1.0));
         DMat4::from_translation((corner + half).extend(0.0)) * scale * self.clip
+    }
+
+    /// The depth of a plane: for a texel to the right, for one up, and at texel (0, 0), as [`Self::to_texels`] counts
+    /// them. `None` if the light is in the plane.
+    pub(super) fn depth_of_plane(&self, plane: &Plane, corner: DVec2, size: f64) -> Option<Vec3> {
+        let to_planes = self.to_texels(corner, size).inverse().transpose();
+        let kept = to_planes * plane.normal.extend(-plane.offset);
+        let slope = (DVec3::new(kept.x, kept.y, kept.w) / -kept.z).as_vec3();
+        slope.is_finite().then_some(slope)
     }
 
     /// The size of a texel: depth (and more for each unit of depth), metres (and more for each metre of w).

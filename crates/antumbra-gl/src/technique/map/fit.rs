@@ -71,7 +71,9 @@ impl Fit {
             let of_casters = around.casters.iter().filter_map(|caster| caster.window(eye)?.and(limit));
             let mut casters = of_casters.reduce(Window::or);
             if !planes.is_empty() {
-                casters = Some(if eye.central { limit } else { everything_seen(around, eye).or(casters)? });
+                // Beyond the border of a directional light's map planes go on in closed form.
+                let seen = if eye.central { Some(limit) } else { everything_seen(around, eye) };
+                casters = seen.or(casters).or(Some(Window::square(1.0)));
             }
             *window = if soft { casters } else { casters.and_then(|window| seen_part(window, around, eye)) };
         }
@@ -88,7 +90,12 @@ impl Fit {
         let texel = 2.0 * half / size;
         let (nearest, farthest) = distances(&around.casters, planes, light);
         let depth = match light {
-            Light::Directional { .. } => depth_range(&around.casters, planes, &eyes[0], windows[0]?)?,
+            Light::Directional { .. } => {
+                let middle = windows[0]?.middle();
+                // The middle keeps to the grid of texels.
+                let shown = Window { low: middle - (half + texel), high: middle + (half + texel) };
+                depth_range(&around.casters, planes, &eyes[0], shown)?
+            }
             _ => DepthScale::Central { near: (NEAR * farthest).max(1e-20) },
         };
         let face = |(window, eye): (&Option<Window>, &Eye)| {

@@ -25,11 +25,11 @@ use crate::state::{Blend, RasterGuard};
 use crate::technique::casters::casters;
 use crate::tiles::TileGrid;
 use crate::{Caps, Error};
-use antumbra_math::Plane;
+use antumbra_math::{Light as Place, Plane};
 use bounds::Surroundings;
 use face::Face;
 use fit::Fit;
-use glam::{DMat4, DVec2, DVec3, Mat4, Vec4};
+use glam::{DMat4, DVec2, Mat4, Vec3, Vec4};
 use glow::HasContext;
 use target::MapTarget;
 
@@ -80,6 +80,9 @@ const CASTER: usize = 0;
 const PLANE: usize = 1;
 const LOOKUP: usize = 2;
 
+/// Infinite planes that go on beyond the border of a directional light's map; any others end there.
+const MAX_BEYOND: usize = 4;
+
 const RECEIVER: &str = include_str!("../../shaders/map/receiver.glsl");
 const SOFT: &str = include_str!("../../shaders/map/soft.glsl");
 
@@ -112,6 +115,8 @@ macro_rules! lookup_program {
                 "u_light_right",
                 "u_light_up",
                 "u_range",
+                "u_beyond",
+                "u_beyond_count",
             ],
         }
     };
@@ -322,18 +327,13 @@ impl State {
         let size = f64::from(options.size);
         for plane in &self.planes {
             // Texels counted from the middle of the face.
-            let to_texels = face.to_texels(DVec2::splat(-0.5 * size), size);
-            let kept = to_texels.inverse().transpose() * plane.normal.extend(-plane.offset);
-            let slope = DVec3::new(kept.x, kept.y, kept.w) / -kept.z;
-            if !slope.as_vec3().is_finite() {
-                continue; // the light is in the plane
-            }
+            let Some(slope) = face.depth_of_plane(plane, DVec2::splat(-0.5 * size), size) else { continue };
             self.counts.1 += 1;
             let middle = corner + 0.5 * size;
             // SAFETY: the caller's.
             unsafe {
                 gl.use_program(Some(program.raw));
-                gl.uniform_3_f32_slice(program.own[0].as_ref(), &slope.as_vec3().to_array());
+                gl.uniform_3_f32_slice(program.own[0].as_ref(), &slope.to_array());
                 gl.uniform_2_f32_slice(program.own[1].as_ref(), &middle.as_vec2().to_array());
                 gl.bind_vertex_array(Some(self.bare));
                 gl.draw_arrays(glow::TRIANGLES, 0, 3);
@@ -420,6 +420,14 @@ impl State {
         let mut channel = [0.0; GROUP_LIGHTS];
         channel[index % GROUP_LIGHTS] = 1.0;
         let (right, up) = sides(&light.area);
+        let (mut beyond, mut beyond_count) = ([Vec3::ZERO; MAX_BEYOND], 0);
+        if let (Some(face), Place::Directional { .. }) = (&fit.faces[0], light.place) {
+            let corner = self.target.corner(0);
+            let planes = self.planes.iter().filter_map(|plane| face.depth_of_plane(plane, corner, size));
+            beyond.iter_mut().zip(planes).for_each(|(to, plane)| {
+                (*to, beyond_count) = (plane, beyond_count + 1);
+            });
+        }
         let (gl, own) = (pass.gl, &program.own);
         // SAFETY: the caller's; every array has the size its shader declares.
         unsafe {
@@ -436,6 +444,8 @@ impl State {
             gl.uniform_4_f32_slice(own[10].as_ref(), &right.to_array());
             gl.uniform_4_f32_slice(own[11].as_ref(), &up.to_array());
             gl.uniform_2_f32_slice(own[12].as_ref(), &[fit.near as f32, fit.nearest as f32]);
+            gl.uniform_3_f32_slice(own[13].as_ref(), bytemuck::cast_slice(&beyond));
+            gl.uniform_1_i32(own[14].as_ref(), beyond_count);
         }
     }
 }
