@@ -19,6 +19,8 @@ mod composite_guest;
 mod depth_only;
 mod leaks;
 mod lights;
+mod map;
+mod map_twins;
 mod occluders;
 mod projected;
 mod samples;

@@ -9,8 +9,10 @@ uniform mat4 u_planes[6];
 uniform vec4 u_tiles[6];     // first and last texel of a face; none if nothing is in it
 uniform vec4 u_texels[6];    // size of a texel in depth: x plus y * depth; in metres: z plus w * w
 uniform bool u_cube;         // six faces, or the first alone
-uniform vec3 u_beyond[4];    // infinite planes beyond the border of a directional light's map: depth for a texel to the
-uniform int u_beyond_count;  // right, for one up, and at the first texel's corner
+// Infinite planes beyond the border of a directional light's map: depth for a texel to the right, for one up, and at
+// the first texel's corner.
+uniform vec3 u_beyond[4];
+uniform int u_beyond_count;
 uniform vec4 u_place;        // light space: (0, 0, 0, 1), or the direction to the light and 0
 uniform vec4 u_bias;         // constant, slope, normal offset, radius of the filter: texels, but for the slope
 uniform vec4 u_channel;
@@ -18,8 +20,16 @@ uniform vec4 u_channel;
 uniform vec4 u_light_right;  // light space: half the light's size; w: 1 for a square, 0 for a disc
 uniform vec4 u_light_up;     // w: radius of a ball, whose disc faces the receiver; or 0
 uniform vec2 u_range;        // depth times w; distance of the nearest blocker from the light
+// The first search, and the filter, take what is beside the cone to the light by less than twice its radius: less
+// shows as outlines where a near blocker and a far one meet, more as shadows that are not there.
+#define FIRST_SLACK 2.0
+// Points of the light. The second search looks a little beside the cone to the light: of SEARCH_TAPS points a third
+// lie in that ring, near enough to each other that a straight edge is found before the filter meets it. Otherwise the
+// outline of the penumbra shows. More FILTER_TAPS make finer bands in wide penumbrae, and cost as much more.
+#define FIRST_TAPS 32
 #define SEARCH_TAPS 32
-#define FILTER_TAPS 48
+#define FILTER_TAPS 64
+#define RING 1.25
 #endif
 
 layout(location = 0) out vec4 o_visibility;
@@ -43,8 +53,8 @@ float kept_depth(int face, vec2 texel) {
     return inside ? texelFetch(u_map, ivec2(texel), 0).x : 0.0;
 }
 
-// Whether a texel keeps something nearer to the light than `depth`. One with nothing in it has 0: it blocks nothing, not
-// even beyond the map's far end.
+// Whether a texel keeps something nearer to the light than `depth`. One with nothing in it has 0: it blocks nothing,
+// not even beyond the map's far end.
 bool texel_blocks(int face, vec2 texel, float depth) {
     bool blocks = kept_depth(face, texel) > max(depth, 0.0);
     vec4 tile = u_tiles[face];
@@ -80,8 +90,18 @@ float box_filter(int face, MapPoint at, float bias, float radius) {
 }
 
 #ifdef PCSS
-float soft_visibility(vec3 position, vec3 normal, float texel) {
-    bool square = u_light_right.w > 0.5;
+// A receiver under a light with an area, light space.
+struct SoftReceiver {
+    vec3 position;
+    vec3 normal;      // of the plane that texels are compared with
+    vec3 right;       // half the light's size
+    vec3 up;
+    vec3 ahead;       // the way the light looks
+    bool square;
+    float narrowest;  // penumbra_scale of the box of plain PCF
+};
+
+SoftReceiver soft_receiver(vec3 position, vec3 normal, float texel) {
     vec3 right = u_light_right.xyz;
     vec3 up = u_light_up.xyz;
     if (u_light_up.w > 0.0) {
@@ -91,53 +111,81 @@ float soft_visibility(vec3 position, vec3 normal, float texel) {
         up = cross(sight, right);
     }
     float size = max(length(right), length(up));
-    float far = dot(position, position);
-    float distance = sqrt(far);
-    // No narrower than the box of plain PCF, and within 45 degrees of the way to the light.
-    float narrowest = u_bias.w * texel / size;
-    float widest = clamp(penumbra_scale(u_range.y / distance), narrowest, max(distance / size, narrowest));
-    float blockers = 0.0;
-    float shares = 0.0;
-    for (int i = 0; i < SEARCH_TAPS; i++) {
-        // Denser towards the middle, where nearer blockers are to be found.
-        vec2 point = light_point(i, SEARCH_TAPS, square) * sqrt((float(i) + 0.5) / float(SEARCH_TAPS));
-        vec3 x = position + (right * point.x + up * point.y) * widest;
-        int face = face_of(x);
-        vec4 p = u_faces[face] * vec4(x, 1.0);
-        vec4 plane = u_planes[face] * vec4(normal, -dot(normal, position));
-        if (p.w > 0.0) {
-            vec2 texel = floor(p.xy / p.w);
-            float depth = max((dot(plane.xy, texel + 0.5) + plane.w) / -plane.z, 0.0);
-            float kept = kept_depth(face, texel);
-            if (kept > depth + u_bias.x * texel_depth(face, depth)) {
-                float share = dot(x, position) * (u_range.x / (kept * p.w)) / far;
-                // A blocker beside the cone from the receiver to the light blocks nothing of it.
-                if (max(penumbra_scale(share), narrowest) >= light_reach(point, square) * widest) {
-                    blockers += 1.0;
-                    shares += share;
-                }
-            }
-        }
-    }
-    // A loop without a turn is skipped even where both sides of a branch would run.
-    int taps = blockers > 0.0 ? FILTER_TAPS : 0;
-    float scale = clamp(penumbra_scale(shares / max(blockers, 1.0)), narrowest, widest);
-    float lit = 0.0;
+    return SoftReceiver(position, normal, right, up, cross(right, up), u_light_right.w > 0.5, u_bias.w * texel / size);
+}
+
+// Where in the map the receiver sees a point of the light, with the light's size so many times as large.
+struct Tap {
+    int face;
+    vec2 at;       // in texels
+    vec4 plane;    // of the receiver
+    float away;    // share of the way from the light to the receiver, for a depth of 1
+    float beside;  // how far from the middle, in sizes of the light
+    bool in_front; // of the light
+};
+
+Tap light_tap(SoftReceiver r, vec2 point, float scale) {
+    vec3 x = r.position + (r.right * point.x + r.up * point.y) * scale;
+    int face = face_of(x);
+    vec4 p = u_faces[face] * vec4(x, 1.0);
+    vec4 plane = u_planes[face] * vec4(r.normal, -dot(r.normal, r.position));
+    float w = p.w > 0.0 ? p.w : 1.0;
+    float away = dot(x, r.ahead) / dot(r.position, r.ahead) * (u_range.x / w);
+    return Tap(face, p.xy / w, plane, away, light_reach(point, r.square) * scale, p.w > 0.0);
+}
+
+// What a texel keeps from the receiver: x the weight, nothing for what is beside the cone from the receiver to the
+// light by more than `slack` times its radius; y the blocker's share of the way; z its penumbra_scale.
+vec3 blocker_in(SoftReceiver r, Tap tap, vec2 texel, float slack) {
+    float depth = max((dot(tap.plane.xy, texel + 0.5) + tap.plane.w) / -tap.plane.z, 0.0);
+    float kept = kept_depth(tap.face, texel);
+    bool blocks = tap.in_front && kept > depth + u_bias.x * texel_depth(tap.face, depth);
+    float share = tap.away / max(kept, 1e-30);
+    float scale = max(penumbra_scale(share), r.narrowest);
+    return blocks ? vec3(blocker_weight(tap.beside / scale, slack), share, scale) : vec3(0.0);
+}
+
+// The blockers seen through `taps` points of the light: their weight, the sum of their shares by weight, and the largest
+// penumbra_scale of any.
+vec3 find_blockers(SoftReceiver r, float scale, float slack, int taps, bool dense) {
+    vec3 found = vec3(0.0);
     for (int i = 0; i < taps; i++) {
-        vec2 point = light_point(i, FILTER_TAPS, square);
-        vec3 x = position + (right * point.x + up * point.y) * scale;
-        int face = face_of(x);
-        vec4 p = u_faces[face] * vec4(x, 1.0);
-        vec4 plane = u_planes[face] * vec4(normal, -dot(normal, position));
-        if (p.w > 0.0) {
-            vec2 at = p.xy / p.w;
-            MapPoint tap = MapPoint(at, (dot(plane.xy, at) + plane.w) / -plane.z, plane.xy / -plane.z, p.w);
-            lit += box_filter(face, tap, u_bias.x * texel_depth(face, max(tap.depth, 0.0)), 0.5);
-        } else {
-            lit += 1.0;
+        vec2 point = light_point(i, taps, r.square);
+        if (dense) {
+            // Denser towards the middle, where blockers near the receiver are to be found.
+            point *= sqrt((float(i) + 0.5) / float(taps));
+        }
+        Tap tap = light_tap(r, point, scale);
+        vec3 blocker = blocker_in(r, tap, floor(tap.at), slack);
+        found.xy += vec2(1.0, blocker.y) * blocker.x;
+        found.z = blocker.x > 0.0 ? max(found.z, blocker.z) : found.z;
+    }
+    return found;
+}
+
+float soft_visibility(SoftReceiver r) {
+    float distance = length(r.position);
+    float size = max(length(r.right), length(r.up));
+    // Within 45 degrees of the way to the light.
+    float limit = max(distance / size, r.narrowest);
+    // First as wide as the nearest caster of all may ask for; then as wide as those that were found do.
+    float widest = clamp(penumbra_scale(u_range.y / distance), r.narrowest, limit);
+    vec3 first = find_blockers(r, widest * RING, FIRST_SLACK, FIRST_TAPS, true);
+    // A loop without a turn is skipped even where both sides of a branch would run.
+    vec3 found = find_blockers(r, min(first.z, limit) * RING, RING, first.x > 0.0 ? SEARCH_TAPS : 0, false);
+    int taps = found.x > 0.0 ? FILTER_TAPS : 0;
+    float scale = clamp(penumbra_scale(found.y / max(found.x, 1e-6)), r.narrowest, limit);
+    float blocked = 0.0;
+    for (int i = 0; i < taps; i++) {
+        Tap tap = light_tap(r, light_point(i, FILTER_TAPS, r.square), scale);
+        vec2 corner = floor(tap.at - 0.5);
+        for (int k = 0; k < 4; k++) {
+            vec2 texel = corner + vec2(k & 1, k >> 1);
+            float share = box_weight(tap.at.x, 0.5, texel.x) * box_weight(tap.at.y, 0.5, texel.y);
+            blocked += share * blocker_in(r, tap, texel, FIRST_SLACK).x;
         }
     }
-    return taps > 0 ? lit / float(FILTER_TAPS) : 1.0;
+    return 1.0 - blocked / float(FILTER_TAPS);
 }
 #endif
 
@@ -164,7 +212,7 @@ void main() {
     }
     float bias = u_bias.x * texel_depth(face, at.depth);
 #if defined(PCSS)
-    float visibility = soft_visibility(position, normal, texel);
+    float visibility = soft_visibility(soft_receiver(position, normal, texel));
 #elif defined(PCF)
     float visibility = box_filter(face, at, bias, u_bias.w);
 #else

@@ -22,3 +22,9 @@ float light_reach(vec2 point, bool square) {
 float penumbra_scale(float share) {
     return 1.0 / max(share, 1e-6) - 1.0;
 }
+
+// How much a blocker counts, seen at so many radii of the cone from the receiver to the light from its middle: whole
+// inside, nothing from `slack` on.
+float blocker_weight(float beside, float slack) {
+    return clamp((slack - beside) / (slack - 1.0), 0.0, 1.0);
+}

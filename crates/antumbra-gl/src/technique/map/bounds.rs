@@ -33,11 +33,7 @@ impl Bounds {
         // right angles, by no more than the longest.
         let [x, y, z] = [model.x_axis, model.y_axis, model.z_axis].map(|axis| axis.truncate());
         let square = x.dot(y).abs() + y.dot(z).abs() + z.dot(x).abs() <= 1e-9 * stretch.iter().sum::<f64>();
-        let stretch = if square {
-            stretch.into_iter().fold(0.0, f64::max)
-        } else {
-            stretch.iter().sum()
-        };
+        let stretch = if square { stretch.into_iter().fold(0.0, f64::max) } else { stretch.iter().sum() };
         Self { center: model.transform_point3(ball.center), radius: ball.radius * stretch.sqrt(), corners }
     }
 

@@ -266,7 +266,10 @@ mod tests {
         for _ in 0..2000 {
             let p = DVec3::from_array([(); 3].map(|()| random.f64() * 2.0 - 1.0));
             let seen = eyes[super::super::receiver::map_face(p.as_vec3())].see(p);
-            assert!(seen.z > 0.0 && seen.truncate().abs().max_element() <= seen.z * (1.0 + 1e-6), "{p}: {seen}");
+            assert!(
+                seen.z > 0.0 && seen.truncate().abs().max_element() <= seen.z * (1.0 + 1e-6),
+                "{p}: {seen}"
+            );
         }
     }
 }

@@ -146,9 +146,11 @@ fn seen_part(window: Window, around: &Surroundings, eye: &Eye) -> Option<Window>
 
 /// A window that holds everything seen; `None` if that has no end.
 fn everything_seen(around: &Surroundings, eye: &Eye) -> Option<Window> {
-    around.seen.iter().try_fold(Window::ALL, |window, points| window.and(eye.window_of_points(points)?)).filter(
-        |window| window.low.is_finite() && window.high.is_finite(),
-    )
+    around
+        .seen
+        .iter()
+        .try_fold(Window::ALL, |window, points| window.and(eye.window_of_points(points)?))
+        .filter(|window| window.low.is_finite() && window.high.is_finite())
 }
 
 /// The distances of the nearest and of the farthest caster from a light, both above zero.
@@ -185,6 +187,7 @@ fn depth_range(casters: &[Bounds], planes: &[Plane], eye: &Eye, window: Window) 
     }
     let (near, far) = range?;
     // A flat caster that faces the light has no depth of its own.
-    let slack = (1e-3 * (far - near)).max(1e-3 * window.half()).max(1e-6 * near.abs().max(far.abs())).max(1e-12);
+    let slack =
+        (1e-3 * (far - near)).max(1e-3 * window.half()).max(1e-6 * near.abs().max(far.abs())).max(1e-12);
     Some(DepthScale::Parallel { near: near - slack, far: far + slack })
 }

@@ -7,8 +7,8 @@
 mod bounds;
 mod face;
 mod fit;
-pub mod receiver;
 mod reach;
+pub mod receiver;
 pub mod soft;
 mod target;
 
@@ -316,13 +316,7 @@ impl State {
 
     /// # Safety
     /// As for [`Self::draw_light`]; the face's viewport is set.
-    unsafe fn draw_planes(
-        &mut self,
-        pass: &Pass<'_>,
-        face: &Face,
-        corner: DVec2,
-        options: &Options,
-    ) {
+    unsafe fn draw_planes(&mut self, pass: &Pass<'_>, face: &Face, corner: DVec2, options: &Options) {
         let (gl, program) = (pass.gl, &pass.programs[PLANE]);
         let size = f64::from(options.size);
         for plane in &self.planes {
@@ -411,12 +405,8 @@ impl State {
         }
         let to_light = (from_light.inverse() * pass.view.view.inverse()).as_mat4();
         let place = ShaderLight::new(light, &from_light.inverse()).place;
-        let bias = [
-            options.constant_bias,
-            options.slope_bias,
-            options.normal_offset,
-            fit::radius(options) as f32,
-        ];
+        let bias =
+            [options.constant_bias, options.slope_bias, options.normal_offset, fit::radius(options) as f32];
         let mut channel = [0.0; GROUP_LIGHTS];
         channel[index % GROUP_LIGHTS] = 1.0;
         let (right, up) = sides(&light.area);

