@@ -4,10 +4,12 @@ use crate::context::{Gl, in_each_api};
 use crate::leaks::live;
 use crate::lights::many_lights;
 use crate::shot::{Canvas, Shot, VIEWPORT};
-use crate::world::{Truth, World};
+use crate::world::{ONE_OF_EACH, Truth, World};
 use antumbra_gl::technique::Part;
 use antumbra_gl::technique::map::{Filter, Options};
-use antumbra_gl::{Area, Encoding, Error, Frame, Light, MeshOccluder, Occluder, Renderer, Technique, Tier};
+use antumbra_gl::{
+    Area, Encoding, Error, Frame, Light, MeshOccluder, Occluder, Renderer, Surface, Technique, Tier,
+};
 use antumbra_math::{Light as Place, TriangleMesh};
 use glam::{DMat4, DVec3, Vec3};
 use glow::HasContext;
@@ -133,6 +135,30 @@ fn faces_have_no_seams() {
             let (wrong, dark) = wrong(&truth, 0, &shot.masks(&mut renderer, &shot.frame())[0]);
             assert!(dark > 800, "{dark} pixels are dark");
             assert!(wrong <= 8, "{technique}: {wrong} pixels are wrong");
+        }
+    });
+}
+
+/// Hosts without normals: they come from the depth buffer, and so does the receiver's plane.
+#[test]
+fn depth_alone_gives_no_acne() {
+    in_each_api(|gl| {
+        for text in [LAMP, ONE_OF_EACH] {
+            let world = World::parse(text);
+            let shot = Shot::new(gl, &world);
+            let truth = world.truth(&shot);
+            let surface = Surface { depth_format: shot.format, ..Surface::from_depth(shot.depth) };
+            for technique in ["map:size=256", "map", "map:filter=none"] {
+                let mut renderer = renderer(gl, technique);
+                let masks = shot.masks(&mut renderer, &Frame { surface, ..shot.frame() });
+                for (light, mask) in masks.iter().enumerate() {
+                    let lights = &truth.lights[light];
+                    let lit = |&i: &usize| truth.sure[i] && lights[i].0 > 0.5 && lights[i].1 != Vec3::ZERO;
+                    let dark = (0..mask.len()).filter(lit).filter(|&i| mask[i] < 128).count();
+                    eprintln!("{:?} {technique} light {light}: {dark} wrongly dark", gl.api);
+                    assert!(dark <= 4, "{technique}, light {light}: {dark} pixels are wrongly dark");
+                }
+            }
         }
     });
 }

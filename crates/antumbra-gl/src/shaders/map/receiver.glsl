@@ -14,7 +14,8 @@ int map_face(vec3 p) {
     return p.z > 0.0 ? 4 : 5;
 }
 
-// Tangent of the steepest receiver that is followed: 88 degrees. Beyond, light only grazes, and rounding rules.
+// Tangent of the steepest receiver that is followed: 88.2 degrees. Beyond, light only grazes, and acne stays; to follow
+// it there too (256) lets light through where receivers meet.
 #define STEEPEST 32.0
 
 // The normal of the plane that texels are compared with: turned from the light's direction (share 0) to the

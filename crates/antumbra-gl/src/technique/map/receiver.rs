@@ -19,7 +19,8 @@ pub fn map_face(p: Vec3) -> usize {
     if p.z > 0.0 { 4 } else { 5 }
 }
 
-/// Tangent of the steepest receiver that is followed: 88 degrees. Beyond, light only grazes, and rounding rules.
+/// Tangent of the steepest receiver that is followed: 88.2 degrees. Beyond, light only grazes, and acne stays; to follow
+/// it there too (256) lets light through where receivers meet.
 const STEEPEST: f32 = 32.0;
 
 /// The normal of the plane that texels are compared with: turned from the light's direction (`share` 0) to the
