@@ -191,6 +191,15 @@ impl Face {
         slope.is_finite().then_some(slope)
     }
 
+    /// Sides that a circle as large as a caster needs, so that its chords leave the arc by a quarter of a texel.
+    pub(super) fn sides(&self, caster: &Bounds, size: f64) -> f64 {
+        let distance =
+            if self.eye.central { caster.center.distance(self.eye.origin) - caster.radius } else { 1.0 };
+        let radius = caster.radius / (distance.max(0.0) * 2.0 * self.half / size);
+        // r (1 - cos(π / n)) = 1/4, for large n.
+        std::f64::consts::PI * (2.0 * radius).sqrt()
+    }
+
     /// The size of a texel: depth (and more for each unit of depth), metres (and more for each metre of w).
     pub(super) fn texel(&self, size: f64) -> DVec4 {
         let texel = 2.0 * self.half / size;

@@ -22,7 +22,7 @@ use crate::resources::UploadRing;
 use crate::scenery::{Area, Light, Scenery};
 use crate::shader::{COVERAGE, ProgramSource, SCREEN, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard};
-use crate::technique::casters::casters;
+use crate::technique::casters::{casters, with_sides};
 use crate::tiles::TileGrid;
 use crate::{Caps, Error};
 use antumbra_math::Plane;
@@ -283,7 +283,8 @@ impl State {
                     }
                     self.counts.1 += 1;
                     let clip = (face.clip * caster.model).as_mat4();
-                    let mesh = self.meshes.get(gl, caster.mesh)?;
+                    let mesh = with_sides(caster.mesh, face.sides(bounds, f64::from(options.size)));
+                    let mesh = self.meshes.get(gl, mesh)?;
                     gl.uniform_matrix_4_f32_slice(program.own[0].as_ref(), false, &clip.to_cols_array());
                     mesh.draw(gl);
                 }
