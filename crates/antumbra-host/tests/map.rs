@@ -129,7 +129,7 @@ fn meshes_are_right_without_acne() {
     let Some([small, large, unbiased]) = tally(meshes, techniques) else { return };
     assert!(large.outside[1] <= small.outside[1], "{large:?} after {small:?}");
     assert!(unbiased.dark > 100 * large.dark.max(1), "without bias there is acne: {unbiased:?}");
-    assert!(large.lit == 0 && large.dark * 10_000 <= large.all, "{large:?}");
+    assert!(large.outside[1] * 10_000 <= large.all, "{large:?}");
 }
 
 /// A table and a wall that cast, things that stand on them, a lamp aside and a low sun.
@@ -229,4 +229,58 @@ fn filters_smooth_stairs() {
         ["map:filter=none", "map:radius=0.5", "map"].map(|technique| error(technique));
     assert!(bilinear < none && pcf < none, "filtered {bilinear} and {pcf}, not {none}");
     assert!(pcf < bilinear, "wider than bilinear: {pcf}, not {bilinear}");
+}
+
+/// PCSS knows one mean blocker: near the truth where there is one, and not far off where there are several. Over the
+/// pixels that are partly lit, the error is a fraction of the penumbra's own spread, which is 0.29 for an even ramp.
+#[test]
+fn penumbrae_are_near_the_traced_ones() {
+    let Some(context) = common::context(Api::Gl33) else { return };
+    let mut stage = Stage::new(context.gl()).expect("a stage");
+    for (name, light) in [
+        ("ball", "type = \"sphere\"\nradius = 0.4"),
+        ("disc", "type = \"disc\"\nradius = 0.4\ndirection = [0.5, -0.8, -0.3]"),
+        (
+            "rectangle",
+            "type = \"rectangle\"\ndirection = [0.6, -0.8, 0.0]\nright = [0.0, 0.0, 1.0]\nwidth = 1.2\nheight = 0.3",
+        ),
+    ] {
+        let text = format!(
+            r#"
+            camera = {{ eye = [0.5, 3.2, 6.5], target = [0.0, 0.6, 0.0] }}
+            image = {{ width = 240, height = 135 }}
+            [[light]]
+            name = "lamp"
+            {light}
+            position = [-2.5, 4.5, 2.0]
+            intensity = 70.0
+            [[object]]
+            name = "floor"
+            shape = {{ type = "rectangle", width = 10.0, depth = 10.0 }}
+            [[object]]
+            name = "ball"
+            shape = {{ type = "sphere", radius = 0.6 }}
+            translation = [-1.2, 0.6, 0.3]
+            [[object]]
+            name = "cone"
+            shape = {{ type = "cone", radius = 0.6, height = 1.8 }}
+            translation = [1.2, 0.9, 0.2]
+            [[object]]
+            name = "disc"
+            shape = {{ type = "disc", radius = 0.5 }}
+            translation = [0.1, 1.7, 0.6]
+            rotation = [0.3, 0.0, 0.2, 0.93]
+            "#
+        );
+        let scene = Scene::parse(&text, "soft.toml".as_ref()).expect("the scene is right");
+        let tracer = Tracer::new(&scene, 0.0);
+        let truth = tracer.visibility(0, 240, 135, Sampling::Center { light_samples: 64 }, &|_, _| {});
+        let drawn = &draw(&mut stage, &scene, "map:filter=pcss")[0];
+        let penumbra: Vec<bool> = truth.iter().map(|v| *v > 0.02 && *v < 0.98).collect();
+        let error = rms(drawn, &truth, &penumbra);
+        let count = penumbra.iter().filter(|p| **p).count();
+        eprintln!("{name}: rms {error:.3} over {count} pixels of penumbra");
+        assert!(count > 500, "{name}: {count} pixels of penumbra");
+        assert!(error < 0.12, "{name}: {error}");
+    }
 }
