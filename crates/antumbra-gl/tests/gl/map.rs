@@ -3,7 +3,9 @@
 use crate::context::{Gl, in_each_api};
 use crate::leaks::live;
 use crate::lights::many_lights;
+use crate::odd_host::OddHost;
 use crate::shot::{Canvas, Shot, VIEWPORT};
+use crate::snapshot::{assert_same, snapshot};
 use crate::world::{ONE_OF_EACH, Truth, World};
 use antumbra_gl::technique::Part;
 use antumbra_gl::technique::map::{Filter, Options};
@@ -302,6 +304,26 @@ fn the_hosts_depth_state_does_not_matter() {
             }
         }
         assert!(odd == plain, "the masks depend on the host's depth state");
+    });
+}
+
+/// With everything bound and every switch the other way round the picture is the same, and so is the state afterwards.
+#[test]
+fn an_odd_host_is_left_as_it_was() {
+    in_each_api(|gl| {
+        let world = World::one_of_each();
+        let shot = Shot::new(gl, &world);
+        let size = [VIEWPORT[2], VIEWPORT[3]];
+        let canvas = Canvas::new(gl);
+        let mut renderer = renderer(gl, "map:size=256");
+        renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+        let plain = canvas.read(0);
+        let host = OddHost::new(gl, size);
+        let before = snapshot(gl);
+        renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+        assert_same(&before, &snapshot(gl), "an overlay with maps");
+        gl.assert_no_complaint("an odd host");
+        assert!(host.calm_down(gl).read(0) == plain, "the picture depends on the host's state");
     });
 }
 
