@@ -20,6 +20,7 @@ mod depth_only;
 mod leaks;
 mod lights;
 mod map;
+mod map_guest;
 mod map_twins;
 mod occluders;
 mod projected;

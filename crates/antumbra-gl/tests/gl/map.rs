@@ -1,24 +1,16 @@
 //! Shadow maps in contexts: every kind of light, seams, awkward casters, options, and what a steady frame makes.
 
 use crate::context::{Gl, in_each_api};
-use crate::leaks::live;
-use crate::lights::many_lights;
-use crate::odd_host::OddHost;
-use crate::shot::{Canvas, Shot, VIEWPORT};
-use crate::snapshot::{assert_same, snapshot};
+use crate::shot::{Shot, read_texture};
 use crate::world::{ONE_OF_EACH, Truth, World};
 use antumbra_gl::technique::Part;
 use antumbra_gl::technique::map::{Filter, Options};
-use antumbra_gl::{
-    Area, Encoding, Error, Frame, Light, MeshOccluder, Occluder, Renderer, Surface, Technique, Tier,
-};
-use antumbra_math::{Light as Place, TriangleMesh};
-use glam::{DMat4, DVec3, Vec3};
-use glow::HasContext;
+use antumbra_gl::{Area, Error, Frame, Light, Occluder, Renderer, Surface, Technique, Tier};
+use antumbra_math::Light as Place;
+use glam::{DVec3, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::sync::Arc;
 
-fn renderer(gl: &Gl, technique: &str) -> Renderer {
+pub(crate) fn renderer(gl: &Gl, technique: &str) -> Renderer {
     let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
     renderer.set_technique(Technique::parse(technique).expect("right")).expect("the driver makes it");
     renderer
@@ -31,6 +23,20 @@ fn wrong(truth: &Truth<'_>, light: usize, mask: &[u8]) -> (usize, usize) {
     let sure = || (0..mask.len()).filter(|&i| truth.sure[i] && lights[i].1 != Vec3::ZERO);
     let wrong = sure().filter(|&i| (mask[i] > 127) != (lights[i].0 > 0.5)).count();
     (wrong, sure().filter(|&i| lights[i].0 < 0.5).count())
+}
+
+/// Masks of a frame of up to four lights with areas, which float textures hold where there are any.
+fn soft_masks(gl: &Gl, shot: &Shot<'_>, renderer: &mut Renderer, frame: &Frame<'_>) -> Vec<Vec<u8>> {
+    if renderer.caps().tier == Tier::Es3 {
+        return shot.masks(renderer, frame);
+    }
+    let mut texels: Vec<[f32; 4]> = Vec::new();
+    let [_, _, width, height] = frame.viewport;
+    renderer
+        .masks(frame, |batch| texels = read_texture(&gl.gl, batch.textures[0], [width, height]))
+        .expect("the frame is right");
+    let mask = |light: usize| texels.iter().map(|t| (t[light] * 255.0).round() as u8).collect();
+    (0..frame.lights.len()).map(mask).collect()
 }
 
 /// The fraction of sure pixels that may be wrong: stairs of texels, and slivers narrower than a texel. At 2048 texels one
@@ -114,7 +120,7 @@ fn faces_have_no_seams() {
         }
         let mut renderer = renderer(gl, "map:filter=pcss:size=512");
         let lamp = world.lights[0].with_area(Area::Sphere { radius: 0.2 });
-        let masks = shot.masks(&mut renderer, &Frame { lights: &[lamp], ..shot.frame() });
+        let masks = soft_masks(gl, &shot, &mut renderer, &Frame { lights: &[lamp], ..shot.frame() });
         let dark = masks[0].iter().filter(|&&m| m < 255).count();
         assert_eq!(dark, 0, "pixels of the lit table are dark under a ball of light");
         // A ring of balls round the lamp: their shadows cross all borders.
@@ -166,12 +172,12 @@ fn depth_alone_gives_no_acne() {
 }
 
 /// Dark pixels among those that see something.
-fn dark(shot: &Shot<'_>, mask: &[u8]) -> (usize, usize) {
+pub(crate) fn dark(shot: &Shot<'_>, mask: &[u8]) -> (usize, usize) {
     let seen = || (0..mask.len()).filter(|&i| shot.seen[i].is_some());
     (seen().filter(|&i| mask[i] < 128).count(), seen().count())
 }
 
-const FLOOR: &str = r#"
+pub(crate) const FLOOR: &str = r#"
 camera = { eye = [0.0, 5.0, 6.0], target = [0.0, 0.0, 0.0] }
 [[light]]
 name = "lamp"
@@ -234,99 +240,6 @@ fn lights_in_on_and_under_casters() {
     });
 }
 
-/// Casters without extent, and lights that are nowhere, change nothing for the others.
-#[test]
-fn nonsense_is_left_out() {
-    in_each_api(|gl| {
-        let world = World::one_of_each();
-        let shot = Shot::new(gl, &world);
-        let mut renderer = renderer(gl, "map");
-        let alone = shot.masks(&mut renderer, &shot.frame());
-        let bad = crate::occluders::nonsense();
-        for occluder in &bad {
-            let frame = Frame { occluders: std::slice::from_ref(occluder), ..shot.frame() };
-            let masks = shot.masks(&mut renderer, &frame);
-            assert!(masks.iter().flatten().all(|&m| m == 255), "{occluder:?} casts a shadow");
-        }
-        let mut all = bad;
-        all.extend(&world.occluders);
-        let among = shot.masks(&mut renderer, &Frame { occluders: &all, ..shot.frame() });
-        assert!(among == alone, "the shadows of the others change");
-        for bad in [f64::NAN, f64::INFINITY, 1e300] {
-            let at = DVec3::new(0.0, bad, 0.0);
-            let mut lights = vec![
-                Light::point(at, Vec3::ONE),
-                Light::directional(DVec3::ZERO, Vec3::ONE),
-                Light::spot(at, DVec3::Y, 0.1, 0.2, Vec3::ONE),
-                Light::spot(DVec3::Y, DVec3::ZERO, 0.0, 0.0, Vec3::ONE),
-            ];
-            lights.extend(&world.lights);
-            let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
-            assert!(masks[4..] == alone[..], "the masks of the others change");
-            gl.assert_no_complaint("lights that are nowhere");
-        }
-        // Far too small and far too large.
-        for size in [1e-30, 1e-9, 1e9, 1e30] {
-            let occluders = [Occluder::sphere(DVec3::Y, size), Occluder::disc(DVec3::Y, DVec3::Y, size)];
-            let _ = shot.masks(&mut renderer, &Frame { occluders: &occluders, ..shot.frame() });
-            gl.assert_no_complaint("extreme sizes");
-        }
-    });
-}
-
-/// Depth in a map does not depend on the host's own: its range, its clamping, its test.
-#[test]
-fn the_hosts_depth_state_does_not_matter() {
-    in_each_api(|gl| {
-        let world = World::one_of_each();
-        let shot = Shot::new(gl, &world);
-        let mut renderer = renderer(gl, "map");
-        let plain = shot.masks(&mut renderer, &shot.frame());
-        // SAFETY: plain settings, put back below.
-        unsafe {
-            gl.gl.depth_range_f32(0.7, 0.2);
-            gl.gl.depth_func(glow::NEVER);
-            gl.gl.depth_mask(false);
-            gl.gl.enable(glow::SCISSOR_TEST);
-            gl.gl.scissor(3, 4, 5, 6);
-            if gl.is_desktop() {
-                gl.gl.enable(glow::DEPTH_CLAMP);
-            }
-        }
-        let odd = shot.masks(&mut renderer, &shot.frame());
-        // SAFETY: as above.
-        unsafe {
-            gl.gl.depth_range_f32(0.0, 1.0);
-            gl.gl.disable(glow::SCISSOR_TEST);
-            gl.gl.depth_mask(true);
-            if gl.is_desktop() {
-                gl.gl.disable(glow::DEPTH_CLAMP);
-            }
-        }
-        assert!(odd == plain, "the masks depend on the host's depth state");
-    });
-}
-
-/// With everything bound and every switch the other way round the picture is the same, and so is the state afterwards.
-#[test]
-fn an_odd_host_is_left_as_it_was() {
-    in_each_api(|gl| {
-        let world = World::one_of_each();
-        let shot = Shot::new(gl, &world);
-        let size = [VIEWPORT[2], VIEWPORT[3]];
-        let canvas = Canvas::new(gl);
-        let mut renderer = renderer(gl, "map:size=256");
-        renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
-        let plain = canvas.read(0);
-        let host = OddHost::new(gl, size);
-        let before = snapshot(gl);
-        renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
-        assert_same(&before, &snapshot(gl), "an overlay with maps");
-        gl.assert_no_complaint("an odd host");
-        assert!(host.calm_down(gl).read(0) == plain, "the picture depends on the host's state");
-    });
-}
-
 #[test]
 fn areas_need_pcss() {
     in_each_api(|gl| {
@@ -347,7 +260,7 @@ fn areas_need_pcss() {
                 assert!(refused.to_string().contains("filter is pcss"), "{refused}");
             }
             let mut renderer = renderer(gl, "map:filter=pcss");
-            let masks = shot.masks(&mut renderer, &frame);
+            let masks = soft_masks(gl, &shot, &mut renderer, &frame);
             let partial = |mask: &[u8]| mask.iter().filter(|&&m| m > 20 && m < 235).count();
             let hard = partial(&masks[0]);
             let soft = partial(&masks[1]);
@@ -400,76 +313,5 @@ fn extreme_options_work() {
         let drawn = renderer.masks(&Frame { lights: sun, ..shot.frame() }, |_| {});
         assert_eq!(drawn.is_ok(), limit >= 8192, "{drawn:?}");
         gl.assert_no_complaint("large maps");
-    });
-}
-
-/// Meshes of the host's own cast, and are forgotten some time after the host has stopped using them.
-#[test]
-fn meshes_cast_and_are_let_go() {
-    in_each_api(|gl| {
-        let world = World::parse(FLOOR);
-        let shot = Shot::new(gl, &world);
-        let mut renderer = renderer(gl, "map");
-        let empty = Frame { occluders: &[], ..shot.frame() };
-        shot.masks(&mut renderer, &empty);
-        let torus = Arc::new(TriangleMesh::torus(0.8, 0.2, 32).expect("a torus"));
-        let stretch = DMat4::from_scale(DVec3::new(1.5, 1.0, -1.0));
-        let meshes =
-            [MeshOccluder { mesh: torus, model: DMat4::from_translation(DVec3::Y) * stretch, id: 5 }];
-        let mask = &shot.masks(&mut renderer, &Frame { meshes: &meshes, ..empty })[0];
-        let (dark, _) = dark(&shot, mask);
-        // The lamp is straight above the middle: its light falls through the hole.
-        let middle = mask[(VIEWPORT[3] / 2 * VIEWPORT[2] + VIEWPORT[2] / 2) as usize];
-        assert!(dark > 300 && middle == 255, "{dark} pixels are dark, the middle is {middle}");
-        let with = live(&gl.gl);
-        for _ in 0..70 {
-            renderer.masks(&empty, |_| {}).expect("the frame is right");
-        }
-        let without = live(&gl.gl);
-        assert_eq!((with[1] - without[1], with[3] - without[3]), (2, 1), "two buffers and a vertex array go");
-    });
-}
-
-/// A frame like the one before allocates nothing and makes no objects, whatever moves; and a renderer takes everything
-/// with it.
-#[test]
-fn a_steady_frame_makes_nothing() {
-    in_each_api(|gl| {
-        let world = many_lights(9);
-        let shot = Shot::new(gl, &world);
-        let _canvas = Canvas::new(gl);
-        let before = live(&gl.gl);
-        for technique in ["map:size=128", "map:size=128:filter=pcss"] {
-            let mut renderer = renderer(gl, technique);
-            let soft = technique.ends_with("pcss");
-            let lights = |step: usize| -> Vec<Light> {
-                let moved = |light: &Light| {
-                    let position = light.place.homogeneous().truncate();
-                    let at = position + DVec3::new((step as f64 * 0.7).sin(), 0.1, (step as f64 * 0.9).cos());
-                    let moved = Light { place: Place::Point { position: at }, ..*light };
-                    if soft { moved.with_area(Area::Sphere { radius: 0.1 }) } else { moved }
-                };
-                world.lights.iter().map(moved).chain([world.lights[0]]).collect()
-            };
-            let steps: Vec<Vec<Light>> = (0..8).map(lights).collect();
-            let float = renderer.caps().tier != Tier::Es3;
-            let mut draw = |lights: &[Light]| {
-                let frame = Frame { lights, ..shot.frame() };
-                let counted = allocation_counter::measure(|| {
-                    if float {
-                        renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
-                    }
-                    renderer.masks(&frame, |_| {}).expect("the frame is right");
-                });
-                counted.count_total
-            };
-            steps.iter().for_each(|lights| _ = draw(lights));
-            let objects = live(&gl.gl);
-            let counts: Vec<u64> = steps.iter().map(|lights| draw(lights)).collect();
-            assert!(counts.iter().all(|&n| n == 0), "{technique}: allocations by frame {counts:?}");
-            assert_eq!(live(&gl.gl), objects, "{technique}: OpenGL objects");
-        }
-        assert_eq!(live(&gl.gl), before, "a renderer takes its objects with it");
-        gl.assert_no_complaint("steady frames");
     });
 }

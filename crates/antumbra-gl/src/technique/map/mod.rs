@@ -20,7 +20,7 @@ use crate::pairs::{GROUP_LIGHTS, hides_its_own_shadow};
 use crate::proxy::ProxyBuilder;
 use crate::resources::UploadRing;
 use crate::scenery::{Area, Light, Scenery};
-use crate::shader::{COVERAGE, ProgramSource, SCREEN, SURFACE, Stage};
+use crate::shader::{COVERAGE, LightKind, ProgramSource, SCREEN, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard};
 use crate::technique::casters::{casters, with_sides};
 use crate::tiles::TileGrid;
@@ -99,6 +99,7 @@ macro_rules! lookup_program {
                 ],
             },
             uniforms: lookup::UNIFORMS,
+            lights: LightKind::Any,
         }
     };
 }
@@ -110,12 +111,14 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
         vertex: Stage { defines: "", parts: &[include_str!("../../shaders/map/caster.vert.glsl")] },
         fragment: Stage { defines: "", parts: &[include_str!("../../shaders/map/caster.frag.glsl")] },
         uniforms: &["u_clip"],
+        lights: LightKind::Any,
     },
     ProgramSource {
         name: "map of a plane",
         vertex: Stage { defines: "", parts: &[include_str!("../../shaders/map/plane.vert.glsl")] },
         fragment: Stage { defines: "", parts: &[include_str!("../../shaders/map/plane.frag.glsl")] },
         uniforms: &["u_slope", "u_middle"],
+        lights: LightKind::Any,
     },
     lookup_program!("lookup", "NONE"),
     lookup_program!("lookup with PCF", "PCF"),
@@ -275,7 +278,7 @@ impl State {
                 gl.viewport(corner.x as i32, corner.y as i32, size, size);
                 gl.scissor(corner.x as i32, corner.y as i32, size, size);
                 gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.0]);
-                let program = &pass.programs[CASTER];
+                let program = pass.program(CASTER);
                 gl.use_program(Some(program.raw));
                 for (caster, bounds) in casters(pass).zip(&self.around.casters) {
                     if face.misses(bounds) {
@@ -299,7 +302,7 @@ impl State {
     /// # Safety
     /// As for [`Self::draw_light`]; the face's viewport is set.
     unsafe fn draw_planes(&mut self, pass: &Pass<'_>, face: &Face, corner: DVec2, options: &Options) {
-        let (gl, program) = (pass.gl, &pass.programs[PLANE]);
+        let (gl, program) = (pass.gl, pass.program(PLANE));
         let size = f64::from(options.size);
         for plane in &self.planes {
             // Texels counted from the middle of the face.
