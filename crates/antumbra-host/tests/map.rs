@@ -225,8 +225,7 @@ fn filters_smooth_stairs() {
         eprintln!("{technique}: rms {error:.4} on edge pixels");
         error
     };
-    let [none, bilinear, pcf] =
-        ["map:filter=none", "map:radius=0.5", "map"].map(|technique| error(technique));
+    let [none, bilinear, pcf] = ["map:filter=none", "map:radius=0.5", "map"].map(&mut error);
     assert!(bilinear < none && pcf < none, "filtered {bilinear} and {pcf}, not {none}");
     assert!(pcf < bilinear, "wider than bilinear: {pcf}, not {bilinear}");
 }
