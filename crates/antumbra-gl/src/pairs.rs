@@ -68,16 +68,11 @@ impl PairBuilder {
         self.counts = (0, 0);
         self.shapes_vs.clear();
         self.bounds_vs.clear();
-        let eye_ws = view.view.inverse().transform_point3(DVec3::ZERO);
-        self.bounds_vs.extend(bounds.iter().map(|b| b.transformed(&view.view)));
+        seen_half_spaces(occluders, bounds, view, &mut self.bounds_vs);
         for o in occluders {
             let shape = o.shape.transformed(&view.view);
             let (center, radius) = shape.bounding_sphere();
             self.shapes_vs.push((shape, o.id, center, radius));
-            // Nothing is seen behind an opaque plane that the host draws, unless the eye is in it.
-            if let (Shape::Plane(plane), true) = (&o.shape, o.id != 0) {
-                self.bounds_vs.extend(plane.towards(eye_ws).map(|side| side.transformed(&view.view)));
-            }
         }
     }
 
@@ -188,6 +183,23 @@ impl PairBuilder {
     }
 }
 
+/// Appends the half-spaces that hold everything seen, view space.
+pub(crate) fn seen_half_spaces(
+    occluders: &[Occluder],
+    bounds: &[Plane],
+    view: &View,
+    half_spaces: &mut Vec<Plane>,
+) {
+    let eye_ws = view.view.inverse().transform_point3(DVec3::ZERO);
+    half_spaces.extend(bounds.iter().map(|b| b.transformed(&view.view)));
+    for o in occluders {
+        // Nothing is seen behind an opaque plane that the host draws, unless the eye is in it.
+        if let (Shape::Plane(plane), true) = (&o.shape, o.id != 0) {
+            half_spaces.extend(plane.towards(eye_ws).map(|side| side.transformed(&view.view)));
+        }
+    }
+}
+
 /// From pixels of the viewport to clip space.
 pub(crate) fn clip_position(p: DVec2, size: DVec2) -> [f32; 2] {
     (p / size * 2.0 - 1.0).as_vec2().to_array()
@@ -203,7 +215,7 @@ fn pack_polygon(list: &mut Vec<Vertex>, polygon: &[DVec2], size: DVec2, blocker:
 
 /// Whether nothing that is seen can lie in the shape's shadow: an opaque infinite plane, drawn by
 /// the host, with the eye (the origin) on the light's side hides all that it takes the light from.
-fn hides_its_own_shadow(shape: &Shape, id: u32, light_vs: &antumbra_math::Light) -> bool {
+pub(crate) fn hides_its_own_shadow(shape: &Shape, id: u32, light_vs: &antumbra_math::Light) -> bool {
     let Shape::Plane(plane) = shape else { return false };
     let light = light_vs.homogeneous();
     let light_side = plane.normal.dot(light.truncate()) - plane.offset * light.w;

@@ -19,16 +19,37 @@ struct UnitShapes {
     triangle: TriangleMesh,
 }
 
-static UNIT: LazyLock<UnitShapes> = LazyLock::new(|| {
-    let made = |mesh: Result<TriangleMesh, MeshError>| mesh.expect("shapes of size one are meshes");
-    UnitShapes {
-        sphere: made(TriangleMesh::sphere(1.0, SEGMENTS)),
-        disc: made(TriangleMesh::disc(1.0, SEGMENTS)),
-        cone: made(TriangleMesh::cone(1.0, 1.0, SEGMENTS)),
-        rectangle: made(TriangleMesh::rectangle(2.0, 2.0)),
-        triangle: made(TriangleMesh::triangle([DVec3::ZERO, DVec3::X, DVec3::Z])),
+impl UnitShapes {
+    fn new(segments: u32) -> Self {
+        let made = |mesh: Result<TriangleMesh, MeshError>| mesh.expect("shapes of size one are meshes");
+        Self {
+            sphere: made(TriangleMesh::sphere(1.0, segments)),
+            disc: made(TriangleMesh::disc(1.0, segments)),
+            cone: made(TriangleMesh::cone(1.0, 1.0, segments)),
+            rectangle: made(TriangleMesh::rectangle(2.0, 2.0)),
+            triangle: made(TriangleMesh::triangle([DVec3::ZERO, DVec3::X, DVec3::Z])),
+        }
     }
-});
+}
+
+static UNIT: LazyLock<UnitShapes> = LazyLock::new(|| UnitShapes::new(SEGMENTS));
+
+/// The same with fewer sides, for pictures that have no room for more.
+static COARSE: LazyLock<[(u32, UnitShapes); 2]> =
+    LazyLock::new(|| [SEGMENTS / 4, SEGMENTS / 2].map(|segments| (segments, UnitShapes::new(segments))));
+
+/// A mesh with at least so many sides to a circle, if that is fewer than it has, for the round shapes of
+/// [`casters`]; other meshes as they are.
+pub(crate) fn with_sides(mesh: &TriangleMesh, sides: f64) -> &TriangleMesh {
+    let (fine, coarse): (&UnitShapes, &[(u32, UnitShapes)]) = (&UNIT, &*COARSE);
+    let Some((_, coarse)) = coarse.iter().find(|(segments, _)| f64::from(*segments) >= sides) else {
+        return mesh;
+    };
+    [(&fine.sphere, &coarse.sphere), (&fine.disc, &coarse.disc), (&fine.cone, &coarse.cone)]
+        .into_iter()
+        .find_map(|(fine, coarse)| (fine.id() == mesh.id()).then_some(coarse))
+        .unwrap_or(mesh)
+}
 
 /// A mesh in the world that casts a shadow.
 #[derive(Clone, Copy)]

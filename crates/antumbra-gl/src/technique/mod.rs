@@ -3,6 +3,7 @@
 pub mod analytic;
 mod casters;
 pub mod composite;
+pub mod map;
 mod options;
 pub mod projected;
 pub mod volume;
@@ -106,6 +107,8 @@ techniques! {
     Projected = projected, "projected";
     /// Stencil shadow volumes.
     Volume = volume, "volume";
+    /// Shadow maps, on any surface.
+    Map = map, "map";
 }
 
 impl Technique {

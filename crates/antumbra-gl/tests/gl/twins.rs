@@ -102,7 +102,7 @@ pub(crate) fn on_gpu<const K: usize>(
 
 /// Asserts that numbers agree within `close` but for a fraction `over`. A number that is none on the
 /// CPU is none, or nothing, on the GPU.
-fn assert_equal(what: &str, gpu: &[f32], cpu: &[f32], close: f32, over: f64) {
+pub(crate) fn assert_equal(what: &str, gpu: &[f32], cpu: &[f32], close: f32, over: f64) {
     assert_eq!(gpu.len(), cpu.len(), "a result a call");
     let same = |g: f32, c: f32| (g - c).abs() <= close || g == c || (c.is_nan() && !(g > 0.0));
     let off: Vec<_> = gpu.iter().zip(cpu).enumerate().filter(|(_, (g, c))| !same(**g, **c)).collect();

@@ -1,0 +1,363 @@
+//! `map`: shadow maps, the way renderers do them today.
+//!
+//! For each light the casters are drawn as it sees them, keeping the depth of the nearest; a point seen by the camera
+//! is in shadow if the light saw something nearer. One map is drawn and looked up light after light. Theory:
+//! docs/theory/map.md.
+
+mod bounds;
+mod face;
+mod fit;
+mod lookup;
+mod reach;
+pub mod receiver;
+pub mod soft;
+mod target;
+
+use super::options::{choices, options};
+use super::{About, Batch, Method, Part, Pass, Refusal, Technique};
+use crate::mesh_buffers::MeshCache;
+use crate::pairs::{GROUP_LIGHTS, hides_its_own_shadow};
+use crate::proxy::ProxyBuilder;
+use crate::resources::UploadRing;
+use crate::scenery::{Area, Light, Scenery};
+use crate::shader::{COVERAGE, LightKind, ProgramSource, SCREEN, SURFACE, Stage};
+use crate::state::{Blend, RasterGuard};
+use crate::technique::casters::{casters, with_sides};
+use crate::tiles::TileGrid;
+use crate::{Caps, Error};
+use antumbra_math::Plane;
+use bounds::Surroundings;
+use face::Face;
+use fit::Fit;
+use glam::DVec2;
+use glow::HasContext;
+use target::MapTarget;
+
+/// What it is.
+pub(super) const ABOUT: About = About {
+    summary: "shadow maps: depth seen from the light, filtered; soft shadows with filter=pcss",
+    casts_from: "anything",
+    falls_on: "anything",
+};
+
+choices! {
+    /// How a map is looked up.
+    pub enum Filter {
+        /// The nearest texel: in or out, with stairs.
+        None = "none",
+        /// Percentage-closer filtering: the mean of the answers of a square of texels.
+        Pcf = "pcf",
+        /// Percentage-closer soft shadows: the same, as wide as the penumbra of the light's area is estimated to be.
+        /// Lights without an area are filtered as with `pcf`.
+        Pcss = "pcss",
+    }
+}
+
+options! {
+    /// Options of the technique `map`. Lengths are in texels, so that they shrink as the map grows.
+    pub struct Options {
+        /// Texels of a side of a map; of each of the faces in use for a point light. Four bytes each.
+        pub size: u32 = 2048, 16..=8192;
+        /// How the map is looked up.
+        pub filter: Filter = Filter::Pcf, ();
+        /// Half the side of the square of texels that `pcf` takes the mean of; an eighth of the map at most.
+        /// Larger: smoother edges, less detail. 0.5 is a bilinear filter, 1.5 the usual 3 by 3 of those.
+        pub radius: f32 = 1.5, 0.5..=8.0;
+        /// How much nearer to the light a point is taken to be. Larger: less acne on curved receivers, and a gap
+        /// between an object and its shadow.
+        pub constant_bias: f32 = 0.1, 0.0..=1000.0;
+        /// The share of the receiver's slope, from its normal, that the comparison follows from texel to texel:
+        /// 1 its own plane, 0 a plane that faces the light. Less: acne where light grazes.
+        pub slope_bias: f32 = 1.0, 0.0..=1.0;
+        /// How far a point is moved off its surface, less the more it faces the light. Larger: less acne where
+        /// normals do not tell the slope, and shadows move.
+        pub normal_offset: f32 = 0.25, 0.0..=1000.0;
+    }
+}
+
+/// Indices into [`PROGRAMS`].
+const CASTER: usize = 0;
+const PLANE: usize = 1;
+const LOOKUP: usize = 2;
+
+const RECEIVER: &str = include_str!("../../shaders/map/receiver.glsl");
+const SOFT: &str = include_str!("../../shaders/map/soft.glsl");
+
+macro_rules! lookup_program {
+    ($name:literal, $define:literal) => {
+        ProgramSource {
+            name: $name,
+            vertex: Stage { defines: "", parts: &[SCREEN] },
+            fragment: Stage {
+                defines: concat!("#define ", $define, "\n"),
+                parts: &[
+                    COVERAGE,
+                    SURFACE,
+                    RECEIVER,
+                    SOFT,
+                    include_str!("../../shaders/map/lookup.frag.glsl"),
+                ],
+            },
+            uniforms: lookup::UNIFORMS,
+            lights: LightKind::Any,
+        }
+    };
+}
+
+/// What draws maps, then a lookup for each [`Filter`].
+pub(super) const PROGRAMS: &[ProgramSource] = &[
+    ProgramSource {
+        name: "map of a mesh",
+        vertex: Stage { defines: "", parts: &[include_str!("../../shaders/map/caster.vert.glsl")] },
+        fragment: Stage { defines: "", parts: &[include_str!("../../shaders/map/caster.frag.glsl")] },
+        uniforms: &["u_clip"],
+        lights: LightKind::Any,
+    },
+    ProgramSource {
+        name: "map of a plane",
+        vertex: Stage { defines: "", parts: &[include_str!("../../shaders/map/plane.vert.glsl")] },
+        fragment: Stage { defines: "", parts: &[include_str!("../../shaders/map/plane.frag.glsl")] },
+        uniforms: &["u_slope", "u_middle"],
+        lights: LightKind::Any,
+    },
+    lookup_program!("lookup", "NONE"),
+    lookup_program!("lookup with PCF", "PCF"),
+    lookup_program!("lookup with PCSS", "PCSS"),
+];
+
+pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
+    let light = scenery.lights.iter().position(|light| light.area != Area::None)?;
+    (options.filter != Filter::Pcss).then(|| Refusal {
+        part: Part::Light(light),
+        reason: "has no shadows of lights with an area unless its option filter is pcss".into(),
+    })
+}
+
+/// The OpenGL objects, and the memory of the fitting.
+pub(super) struct State {
+    target: MapTarget,
+    meshes: MeshCache,
+    screen: UploadRing,
+    /// Without attributes.
+    bare: glow::VertexArray,
+    around: Surroundings,
+    /// The planes that take a light from something.
+    planes: Vec<Plane>,
+    proxy: ProxyBuilder,
+    tiles: TileGrid,
+    vertices: Vec<[f32; 2]>,
+    counts: (usize, usize),
+}
+
+impl State {
+    /// # Safety
+    /// A [`crate::state::StateGuard`] is alive.
+    pub(super) unsafe fn new(gl: &glow::Context, _: &Caps) -> Result<Self, Error> {
+        // SAFETY: the caller's.
+        unsafe {
+            let screen = UploadRing::new(gl, size_of::<[f32; 2]>() as i32)?;
+            let Ok(bare) = gl.create_vertex_array() else {
+                screen.delete(gl);
+                return Err(Error::Resource { what: "a vertex array".into() });
+            };
+            Ok(Self {
+                target: MapTarget::default(),
+                meshes: MeshCache::default(),
+                screen,
+                bare,
+                around: Surroundings::default(),
+                planes: Vec::new(),
+                proxy: ProxyBuilder::default(),
+                tiles: TileGrid::default(),
+                vertices: Vec::new(),
+                counts: (0, 0),
+            })
+        }
+    }
+}
+
+impl Method for State {
+    unsafe fn begin(&mut self, pass: &Pass<'_>) -> Result<(), Error> {
+        self.counts = (0, 0);
+        self.around.begin(pass);
+        // SAFETY: the caller's.
+        unsafe { self.meshes.begin_frame(pass.gl) };
+        Ok(())
+    }
+
+    unsafe fn draw_visibility(&mut self, pass: &Pass<'_>, batch: &mut Batch<'_>) -> Result<(), Error> {
+        let Technique::Map(options) = pass.technique else { return Ok(()) };
+        // SAFETY: the caller's.
+        unsafe {
+            let _raster = RasterGuard::new(pass.gl);
+            for (index, light) in batch.lights.iter().enumerate() {
+                if light.intensity != glam::Vec3::ZERO {
+                    self.draw_light(pass, batch, index, light, options)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn counts(&self) -> (usize, usize) {
+        self.counts
+    }
+
+    unsafe fn delete(&mut self, gl: &glow::Context) {
+        // SAFETY: the caller's.
+        unsafe {
+            self.target.delete(gl);
+            self.meshes.delete(gl);
+            self.screen.delete(gl);
+            gl.delete_vertex_array(self.bare);
+        }
+    }
+}
+
+impl State {
+    /// Draws a light's map and looks it up.
+    ///
+    /// # Safety
+    /// As for [`Method::draw_visibility`]; a [`RasterGuard`] is alive.
+    unsafe fn draw_light(
+        &mut self,
+        pass: &Pass<'_>,
+        batch: &mut Batch<'_>,
+        index: usize,
+        light: &Light,
+        options: &Options,
+    ) -> Result<(), Error> {
+        self.counts.0 += self.around.casters.len() + self.around.planes.len();
+        let soft = light.area != Area::None;
+        let light_vs = light.place.transformed(&pass.view.view);
+        self.planes.clear();
+        self.planes.extend(self.around.planes.iter().filter_map(|&(plane, id)| {
+            let shape = plane.transformed(&pass.view.view).into();
+            (!hides_its_own_shadow(&shape, id, &light_vs)).then_some(plane)
+        }));
+        let fit = Fit::new(&light.place, &self.around, &self.planes, options, soft);
+        let Some(fit) = fit else { return Ok(()) };
+
+        self.tiles.reset(pass.view.size());
+        if soft || !self.planes.is_empty() {
+            self.tiles.touch_all();
+        } else {
+            let texel = fit.some_face.texel(f64::from(options.size));
+            let Self { tiles, proxy, around, .. } = self;
+            reach::touch(tiles, proxy, around, &light.place, (texel, fit::margin(options)), pass.view);
+        }
+        if self.tiles.is_untouched() {
+            return Ok(());
+        }
+        batch.tiles.add(&self.tiles);
+        // SAFETY: the caller's.
+        unsafe {
+            let tiles = fit.faces.iter().flatten().count() as u32;
+            self.target.ensure(pass.gl, pass.caps, options.size, tiles)?;
+            self.draw_map(pass, &fit, options)?;
+            self.look_up(pass, batch, index, light, &fit, options)
+        }
+    }
+
+    /// Draws what the light sees.
+    ///
+    /// # Safety
+    /// As for [`Self::draw_light`].
+    unsafe fn draw_map(&mut self, pass: &Pass<'_>, fit: &Fit, options: &Options) -> Result<(), Error> {
+        let gl = pass.gl;
+        let Some((_, framebuffer)) = self.target.objects() else { return Ok(()) };
+        let size = options.size as i32;
+        // SAFETY: the caller's.
+        unsafe {
+            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(framebuffer));
+            gl.enable(glow::DEPTH_TEST);
+            gl.enable(glow::SCISSOR_TEST);
+            gl.depth_func(glow::GREATER);
+            for (tile, face) in (0..).zip(fit.faces.iter().flatten()) {
+                let corner = self.target.corner(tile);
+                gl.viewport(corner.x as i32, corner.y as i32, size, size);
+                gl.scissor(corner.x as i32, corner.y as i32, size, size);
+                gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.0]);
+                let program = pass.program(CASTER);
+                gl.use_program(Some(program.raw));
+                for (caster, bounds) in casters(pass).zip(&self.around.casters) {
+                    if face.misses(bounds) {
+                        continue;
+                    }
+                    self.counts.1 += 1;
+                    let clip = (face.clip * caster.model).as_mat4();
+                    let mesh = with_sides(caster.mesh, face.sides(bounds, f64::from(options.size)));
+                    let mesh = self.meshes.get(gl, mesh)?;
+                    gl.uniform_matrix_4_f32_slice(program.own[0].as_ref(), false, &clip.to_cols_array());
+                    mesh.draw(gl);
+                }
+                self.draw_planes(pass, face, corner, options);
+            }
+            gl.disable(glow::DEPTH_TEST);
+            gl.disable(glow::SCISSOR_TEST);
+        }
+        Ok(())
+    }
+
+    /// # Safety
+    /// As for [`Self::draw_light`]; the face's viewport is set.
+    unsafe fn draw_planes(&mut self, pass: &Pass<'_>, face: &Face, corner: DVec2, options: &Options) {
+        let (gl, program) = (pass.gl, pass.program(PLANE));
+        let size = f64::from(options.size);
+        for plane in &self.planes {
+            // Texels counted from the middle of the face.
+            let Some(slope) = face.depth_of_plane(plane, DVec2::splat(-0.5 * size), size) else { continue };
+            self.counts.1 += 1;
+            let middle = corner + 0.5 * size;
+            // SAFETY: the caller's.
+            unsafe {
+                gl.use_program(Some(program.raw));
+                gl.uniform_3_f32_slice(program.own[0].as_ref(), &slope.to_array());
+                gl.uniform_2_f32_slice(program.own[1].as_ref(), &middle.as_vec2().to_array());
+                gl.bind_vertex_array(Some(self.bare));
+                gl.draw_arrays(glow::TRIANGLES, 0, 3);
+            }
+        }
+    }
+
+    /// Looks the map up in every pixel of the touched tiles.
+    ///
+    /// # Safety
+    /// As for [`Self::draw_light`].
+    unsafe fn look_up(
+        &mut self,
+        pass: &Pass<'_>,
+        batch: &Batch<'_>,
+        index: usize,
+        light: &Light,
+        fit: &Fit,
+        options: &Options,
+    ) -> Result<(), Error> {
+        let gl = pass.gl;
+        let Some((texture, _)) = self.target.objects() else { return Ok(()) };
+        self.vertices.clear();
+        self.tiles.triangles(&mut self.vertices);
+        let filter = match (options.filter, light.area) {
+            (Filter::Pcss, Area::None) => Filter::Pcf,
+            (filter, _) => filter,
+        };
+        let group = &batch.masks[index / GROUP_LIGHTS];
+        let [.., width, height] = pass.view.viewport;
+        // SAFETY: the caller's.
+        unsafe {
+            let vertices = bytemuck::cast_slice(&self.vertices);
+            let upload = self.screen.upload(gl, pass.caps, vertices, &mut Vec::new())?;
+            gl.bind_vertex_array(Some(upload.vertex_array));
+            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(group.framebuffer));
+            gl.viewport(0, 0, width, height);
+            let program = pass.use_program(LOOKUP + filter as usize, pass.mask_offset());
+            gl.active_texture(glow::TEXTURE3);
+            gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+            let map = lookup::Map { light, fit, options, target: &self.target, planes: &self.planes };
+            map.set(gl, program, pass.view, index);
+            Blend::Min.apply(gl, *pass.caps);
+            gl.draw_arrays(glow::TRIANGLES, 0, self.vertices.len() as i32);
+        }
+        Ok(())
+    }
+}
