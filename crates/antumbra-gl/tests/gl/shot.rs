@@ -99,9 +99,18 @@ impl<'w> Shot<'w> {
         }
     }
 
-    /// The techniques that can do a frame, with their default options.
+    /// The techniques that can do a frame, with their default options; but maps are small, because software draws
+    /// them, and what is asked of these techniques does not depend on it.
     pub(crate) fn able(frame: &Frame<'_>) -> Vec<Technique> {
-        let able: Vec<_> = Technique::all().filter(|t| t.refusal(&frame.scenery()).is_none()).collect();
+        let able = Technique::all().filter(|t| t.refusal(&frame.scenery()).is_none());
+        let able: Vec<_> = able
+            .map(|mut technique| {
+                if let Technique::Map(options) = &mut technique {
+                    options.size = 64;
+                }
+                technique
+            })
+            .collect();
         assert!(able.len() > 1, "analytic, and others");
         able
     }
