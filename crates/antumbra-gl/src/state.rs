@@ -268,6 +268,8 @@ pub(crate) enum Blend {
     Product,
     /// What is drawn over what is there, by its alpha; the target keeps its own.
     Over,
+    /// What is drawn.
+    Replace,
 }
 
 impl Blend {
@@ -282,6 +284,7 @@ impl Blend {
             Self::Add => ([ONE, ONE, ONE, ONE], [FUNC_ADD; 2]),
             Self::Product => ([ZERO, SRC_COLOR, ZERO, SRC_ALPHA], [FUNC_ADD; 2]),
             Self::Multiply => ([ZERO, SRC_COLOR, ZERO, ONE], [FUNC_ADD; 2]),
+            Self::Replace => ([ONE, ZERO, ONE, ZERO], [FUNC_ADD; 2]),
             Self::Over => ([SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ZERO, ONE], [FUNC_ADD; 2]),
         };
         // SAFETY: the caller's.

@@ -24,6 +24,7 @@ mod map_guest;
 mod map_twins;
 mod occluders;
 mod projected;
+mod sampled;
 mod samples;
 mod state;
 mod steady;
