@@ -5,8 +5,8 @@ use crate::host_target::{OtherBuffers, refuse_feedback};
 use crate::overlay::{Encoding, HostPicture, Overlay};
 use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS};
 use crate::resources::{Target, TargetFormat};
-use crate::sampler::{Points, Sampler};
-use crate::samples::{Pattern, Soft};
+use crate::sampler::{Points, Sampler, Sampling};
+use crate::samples::Soft;
 use crate::scenery::{Area, Light};
 use crate::shader::{ProgramId, ProgramSet, Variant};
 use crate::state::StateGuard;
@@ -33,6 +33,8 @@ pub struct Renderer {
     overlay: Overlay,
     visibility: [Option<Target>; BATCH_LIGHTS / GROUP_LIGHTS],
     soft: Soft,
+    /// Whether the technique paints the frame at hand; it then sees the lights as they are.
+    painting: bool,
     /// Made when lights are first sampled.
     sampler: Option<Sampler>,
     /// What stands for the frame's lights where they are sampled.
@@ -105,6 +107,7 @@ impl Renderer {
             overlay,
             visibility: [None, None],
             soft: Soft::Native,
+            painting: false,
             sampler: None,
             points: Points::default(),
             centers: Vec::new(),
@@ -198,6 +201,7 @@ impl Renderer {
     pub fn overlay(&mut self, frame: &Frame<'_>, encoding: Encoding) -> Result<(), Error> {
         let gamma = encoding.gamma()?;
         let view = self.check(frame)?;
+        self.painting = self.technique.paints();
         let gl = self.gl.clone();
         let guard = StateGuard::new(&gl, self.caps);
         let host = HostPicture { framebuffer: guard.host_framebuffer(), gamma };
@@ -245,6 +249,7 @@ impl Renderer {
     /// [`Error::Resource`].
     pub fn masks(&mut self, frame: &Frame<'_>, mut shade: impl FnMut(&MaskBatch)) -> Result<(), Error> {
         let view = self.check(frame)?;
+        self.painting = false;
         let gl = self.gl.clone();
         for (i, lights) in frame.lights.chunks(BATCH_LIGHTS).enumerate() {
             let guard = StateGuard::new(&gl, self.caps);
@@ -276,14 +281,17 @@ impl Renderer {
         }
     }
 
-    /// How many points stand for each light with an area, and where; `None` if the technique is to draw areas
-    /// itself, or there are none.
-    fn sampling(&self, lights: &[Light]) -> Option<(u32, Pattern)> {
-        match self.soft {
-            Soft::Samples { count, pattern } if lights.iter().any(|light| light.area != Area::None) => {
-                Some((count, pattern))
-            }
-            _ => None,
+    /// Which points stand for each light with an area; `None` if the technique is to draw areas itself, or there are
+    /// none.
+    fn sampling(&self, lights: &[Light]) -> Option<Sampling> {
+        if self.painting || lights.iter().all(|light| light.area == Area::None) {
+            return None;
+        }
+        match (self.soft, self.technique) {
+            (Soft::Samples { count, pattern }, _) => Some(Sampling::Spread(count, pattern)),
+            // What it paints is no visibility: masks are the average over the same components.
+            (Soft::Native, Technique::Composite(options)) => Some(Sampling::Components(options.components)),
+            (Soft::Native, _) => None,
         }
     }
 
@@ -298,8 +306,8 @@ impl Renderer {
             self.sampler = Some(unsafe { Sampler::new(&self.gl)? });
         }
         self.warm_up(&frame.surface, frame.lights)?;
-        if let (Some((count, pattern)), Some(sampler)) = (sampling, &mut self.sampler) {
-            self.points.of_lights(frame.lights, count, pattern);
+        if let (Some(sampling), Some(sampler)) = (sampling, &mut self.sampler) {
+            self.points.of_lights(frame, sampling);
             // SAFETY: the caller's.
             unsafe { sampler.prepare(&self.gl, &self.caps, frame)? };
         }

@@ -9,6 +9,7 @@ use crate::shader::{
 };
 use crate::state::{Blend, set_color_mask};
 use crate::surface::{bind_texture, set_surface};
+use crate::technique::composite::push_components;
 use crate::technique::{Batch, Method, Pass};
 use crate::tiles::TileGrid;
 use crate::view::View;
@@ -65,6 +66,15 @@ pub(crate) struct Sampler {
     batch: Vec<Light>,
 }
 
+/// Which points stand for lights with an area.
+#[derive(Clone, Copy)]
+pub(crate) enum Sampling {
+    /// So many, in a pattern.
+    Spread(u32, Pattern),
+    /// The components of the technique `composite`, so many where the frame does not say.
+    Components(u32),
+}
+
 /// The hard lights that stand for a frame's.
 #[derive(Default)]
 pub(crate) struct Points {
@@ -76,12 +86,15 @@ pub(crate) struct Points {
 
 impl Points {
     /// Takes a frame's lights.
-    pub(crate) fn of_lights(&mut self, lights: &[Light], count: u32, pattern: Pattern) {
+    pub(crate) fn of_lights(&mut self, frame: &Frame<'_>, sampling: Sampling) {
         self.lights.clear();
         self.first.clear();
-        for light in lights {
+        for (i, light) in frame.lights.iter().enumerate() {
             self.first.push(self.lights.len());
-            push_points(&mut self.lights, light, count, pattern);
+            match sampling {
+                Sampling::Spread(count, pattern) => push_points(&mut self.lights, light, count, pattern),
+                Sampling::Components(count) => push_components(&mut self.lights, frame, i, count),
+            }
         }
         self.first.push(self.lights.len());
     }

@@ -329,6 +329,7 @@ impl Stage {
             meshes: &setting.described.meshes,
             receivers: &setting.described.receivers,
             bounds: &setting.bounds,
+            components: &[],
             ambient: setting.ambient,
         })
     }

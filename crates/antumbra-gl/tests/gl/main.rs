@@ -16,6 +16,7 @@ mod bad_frames;
 mod cameras;
 mod composite;
 mod composite_guest;
+mod composite_soft;
 mod depth_only;
 mod leaks;
 mod lights;

@@ -6,8 +6,11 @@ use crate::lights::many_lights;
 use crate::odd_host::OddHost;
 use crate::shot::{Canvas, Shot, VIEWPORT, read_texture};
 use crate::snapshot::{assert_same, snapshot};
+use crate::twins::{Random, on_gpu};
 use crate::world::World;
-use antumbra_gl::{Area, Encoding, Error, Frame, Light, MaskBatch, Renderer, Soft, Technique, Tier};
+use antumbra_gl::{
+    Area, Encoding, Error, Frame, Light, MaskBatch, Renderer, Soft, Technique, Tier, sample_weight,
+};
 use antumbra_math::Light as Place;
 use glam::DVec3;
 
@@ -28,6 +31,33 @@ pub(crate) fn area_lights(count: usize) -> World {
         };
     }
     world
+}
+
+/// Near and far points, of either kind of light, above and below horizons.
+#[test]
+fn sample_weight_is_its_twin() {
+    const SAMPLES: &str = include_str!("../../src/shaders/samples.glsl");
+    in_each_api(|gl| {
+        let mut random = Random::new();
+        let (mut inputs, mut cpu) = (Vec::new(), Vec::new());
+        for i in 0..10_000 {
+            let [point, center, position] = [0; 3].map(|_| random.vector(8.0).as_vec3());
+            let emitter = random.unit().as_vec3().extend((i % 2) as f32);
+            let normal = random.unit().as_vec3();
+            cpu.push(sample_weight(point, center, emitter, position, normal));
+            let [a, b, c, d] = [point, center, position, normal].map(|v| v.extend(0.0));
+            inputs.push([a, b, emitter, c, d]);
+        }
+        let body =
+            "o_out = vec4(sample_weight(INPUT(0).xyz, INPUT(1).xyz, INPUT(2), INPUT(3).xyz, INPUT(4).xyz));";
+        let Some(gpu) = on_gpu(gl, &[SAMPLES], body, &inputs) else { return };
+        for ((gpu, cpu), input) in gpu.iter().zip(&cpu).zip(&inputs) {
+            // A dozen roundings, and dot products whose terms cancel.
+            assert!((gpu.x - cpu).abs() <= 4e-6 * (1.0 + cpu), "{} for {cpu}: {input:?}", gpu.x);
+        }
+        let lit = cpu.iter().filter(|weight| **weight > 0.0).count();
+        assert!(lit > 2000 && lit < 8000, "some are lit: {lit}");
+    });
 }
 
 /// The techniques that can sample the lights of a frame, with a renderer for each.
