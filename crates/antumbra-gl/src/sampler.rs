@@ -124,7 +124,7 @@ impl Sampler {
 
     /// Compiles the programs for such surfaces, unless it was done.
     pub(crate) fn warm_up(&mut self, gl: &glow::Context, caps: &Caps, variant: Variant) -> Result<(), Error> {
-        self.programs.ensure(gl, caps, SAMPLE_PROGRAMS, variant, &[])
+        self.programs.ensure(gl, caps, SAMPLE_PROGRAMS, variant, &[], false)
     }
 
     /// Targets of the frame's size.
