@@ -100,7 +100,7 @@ impl OpenGl {
     pub(crate) fn draw(
         &mut self,
         request: &Request,
-        technique: &antumbra::Technique,
+        (technique, soft): (antumbra::Technique, antumbra::Soft),
         msaa: Option<u32>,
     ) -> Result<Drawing, CliError> {
         let most = self.stage.shadows().caps().max_samples.max(1);
@@ -117,7 +117,8 @@ impl OpenGl {
             msaa,
             visibility: request.visibility,
             shadows: request.shadows,
-            technique: *technique,
+            technique,
+            soft,
         };
         let start = Instant::now();
         let rendered = self.stage.render(request.scene, &options).map_err(CliError::OpenGl)?;

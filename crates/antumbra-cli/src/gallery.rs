@@ -71,7 +71,7 @@ mod tests {
             let shapes = scene.objects.iter().flat_map(|object| &object.parts).map(|part| &part.shape);
             let meshes = shapes.filter(|shape| matches!(shape, Shape::Mesh(_))).count();
             assert_eq!(meshes, 0, "{} reads no mesh: an installed program has none", entry.name);
-            let technique = Technique::Gl(antumbra::Technique::default());
+            let technique = Technique::from(antumbra::Technique::default());
             assert_eq!(technique.objection(&scene, 0.0), None, "{} is drawn with OpenGL", entry.name);
         }
     }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use antumbra::Soft;
 use antumbra_scene::Scene;
 
 /// The name of the ray tracer.
@@ -10,8 +11,8 @@ const RAYTRACED: &str = "raytraced";
 /// A technique with its options.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Technique {
-    /// One of the library's, with OpenGL.
-    Gl(antumbra::Technique),
+    /// One of the library's, with OpenGL, and how it draws lights with an area.
+    Gl(antumbra::Technique, Soft),
     /// The ray tracer, on the CPU.
     Raytraced,
 }
@@ -19,14 +20,18 @@ pub(crate) enum Technique {
 impl Technique {
     /// Every technique, with the options it has by default; the ray tracer last.
     pub(crate) fn all() -> Vec<Self> {
-        antumbra::Technique::all().map(Self::Gl).chain([Self::Raytraced]).collect()
+        antumbra::Technique::all().map(Self::from).chain([Self::Raytraced]).collect()
     }
 
-    /// A name, then options as `:key=value`.
+    /// A name, then options as `:key=value`, then `+` and how lights with an area are drawn, if not in the technique's
+    /// own way.
     ///
     /// # Errors
     /// What is wrong with it, and which names there are.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        if let Some((technique, soft)) = text.split_once('+') {
+            return Self::parse(technique)?.with_soft(soft.parse()?);
+        }
         match text.split(':').next() {
             Some(RAYTRACED) if text == RAYTRACED => Ok(Self::Raytraced),
             Some(RAYTRACED) => Err(format!("technique {RAYTRACED} has no options; write {RAYTRACED} alone")),
@@ -34,7 +39,7 @@ impl Technique {
                 "there is no technique `{name}`; the techniques are {} and {RAYTRACED}",
                 antumbra::Technique::NAMES.join(", ")
             )),
-            _ => antumbra::Technique::parse(text).map(Self::Gl),
+            _ => antumbra::Technique::parse(text).map(Self::from),
         }
     }
 
@@ -61,7 +66,7 @@ impl Technique {
     /// That it has no such option.
     pub(crate) fn with_option(mut self, key: &str, value: &str) -> Result<Self, String> {
         match &mut self {
-            Self::Gl(technique) => {
+            Self::Gl(technique, _) => {
                 technique.set(key, value).map_err(|what| format!("technique {}: {what}", technique.name()))?
             }
             Self::Raytraced => return Err(format!("technique {RAYTRACED} has no options")),
@@ -69,10 +74,32 @@ impl Technique {
         Ok(self)
     }
 
+    /// The same technique with lights with an area drawn so.
+    ///
+    /// # Errors
+    /// That the ray tracer has a way of its own.
+    pub(crate) fn with_soft(self, soft: Soft) -> Result<Self, String> {
+        match self {
+            Self::Gl(technique, _) => Ok(Self::Gl(technique, soft)),
+            Self::Raytraced => Err(format!(
+                "technique {RAYTRACED} samples lights anew for every ray; give it --msaa N or --samples N"
+            )),
+        }
+    }
+
+    /// How it draws lights with an area, for tables.
+    pub(crate) fn soft(&self) -> String {
+        match self {
+            Self::Gl(antumbra::Technique::Analytic(_), Soft::Native) => "closed-form".into(),
+            Self::Gl(_, soft) => soft.to_string(),
+            Self::Raytraced => "rays".into(),
+        }
+    }
+
     /// Its name, without options.
     pub(crate) fn name(&self) -> &'static str {
         match self {
-            Self::Gl(technique) => technique.name(),
+            Self::Gl(technique, _) => technique.name(),
             Self::Raytraced => RAYTRACED,
         }
     }
@@ -80,7 +107,7 @@ impl Technique {
     /// What it does, in one sentence.
     pub(crate) fn summary(&self) -> &'static str {
         match self {
-            Self::Gl(technique) => technique.about().summary,
+            Self::Gl(technique, _) => technique.about().summary,
             Self::Raytraced => "the reference: every ray traced on the CPU in double precision",
         }
     }
@@ -88,18 +115,26 @@ impl Technique {
     /// Why it cannot do a scene at a moment, with the object and a technique that can; `None` where it can.
     pub(crate) fn objection(&self, scene: &Scene, time: f64) -> Option<String> {
         match self {
-            Self::Gl(technique) => {
-                antumbra_host::objection(scene, &scene.moment(time), technique).map(|error| error.to_string())
+            Self::Gl(technique, soft) => {
+                antumbra_host::objection(scene, &scene.moment(time), technique, *soft)
+                    .map(|error| error.to_string())
             }
             Self::Raytraced => None,
         }
     }
 }
 
+impl From<antumbra::Technique> for Technique {
+    fn from(technique: antumbra::Technique) -> Self {
+        Self::Gl(technique, Soft::Native)
+    }
+}
+
 impl fmt::Display for Technique {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Gl(technique) => technique.fmt(f),
+            Self::Gl(technique, Soft::Native) => technique.fmt(f),
+            Self::Gl(technique, soft) => write!(f, "{technique}+{soft}"),
             Self::Raytraced => f.write_str(RAYTRACED),
         }
     }

@@ -57,10 +57,10 @@ impl<'a> Contest<'a> {
         techniques: &[Technique],
     ) -> Result<Self, CliError> {
         let runner = |technique: &Technique| match (technique, context) {
-            (Technique::Gl(technique), Some(context)) => {
-                Ok(Runner::Gl(Box::new(stage(context, technique).map_err(CliError::OpenGl)?)))
+            (Technique::Gl(technique, soft), Some(context)) => {
+                Ok(Runner::Gl(Box::new(stage(context, *technique, *soft).map_err(CliError::OpenGl)?)))
             }
-            (Technique::Gl(_), None) => Err(CliError::Usage(format!("{technique} needs OpenGL"))),
+            (Technique::Gl(..), None) => Err(CliError::Usage(format!("{technique} needs OpenGL"))),
             (Technique::Raytraced, _) => Ok(Runner::Cpu),
         };
         let runners = techniques.iter().map(runner).collect::<Result<_, _>>()?;
@@ -173,9 +173,14 @@ fn percentile(values: &mut [f64], percent: usize) -> f64 {
     values.get(rank - 1).copied().unwrap_or(f64::NAN)
 }
 
-fn stage(context: &HeadlessContext, technique: &antumbra::Technique) -> Result<Stage, HostError> {
+fn stage(
+    context: &HeadlessContext,
+    technique: antumbra::Technique,
+    soft: antumbra::Soft,
+) -> Result<Stage, HostError> {
     let mut stage = Stage::new(context.gl())?;
-    stage.set_technique(*technique)?;
+    stage.set_technique(technique)?;
+    stage.set_soft(soft);
     Ok(stage)
 }
 
@@ -250,7 +255,7 @@ mod tests {
         assert!(timing.plain_ms > 0.0, "{timing:?}");
         assert_eq!(timing.timer, "wall time", "the clock is named");
         assert!(timings[1].is_none(), "did not take part");
-        let technique = Technique::Gl(antumbra::Technique::default());
+        let technique = Technique::from(antumbra::Technique::default());
         assert!(Contest::new(None, &[technique]).is_err(), "OpenGL is not there");
     }
 }

@@ -1,6 +1,7 @@
 //! What a host tells antumbra: its camera and what it has drawn.
 
 use crate::scenery::{Light, MeshOccluder, Occluder, Receiver, Scenery};
+use crate::technique::composite::Component;
 use glam::{DMat4, Mat4, Vec3};
 
 /// One frame of the host, as far as shadows are concerned.
@@ -26,6 +27,10 @@ pub struct Frame<'a> {
     /// save time where shadows would go on unseen. Opaque planes among the occluders, with an id,
     /// count by themselves.
     pub bounds: &'a [antumbra_math::Plane],
+    /// Where the technique `composite` has the components of lights with an area, if not on their rims: for
+    /// viewers that move them one by one. Of lights named here these are all but the central one. Other techniques do
+    /// not ask.
+    pub components: &'a [Component],
     /// Light from everywhere that no shadow takes away, linear RGB, in units of irradiance: a
     /// host that adds `albedo * ambient` to `albedo / π * Σ E` gives π times its `ambient`.
     pub ambient: Vec3,
@@ -43,6 +48,7 @@ impl<'a> Frame<'a> {
             meshes: &[],
             receivers: &[],
             bounds: &[],
+            components: &[],
             ambient: Vec3::ZERO,
         }
     }

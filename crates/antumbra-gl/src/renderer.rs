@@ -5,6 +5,8 @@ use crate::host_target::{OtherBuffers, refuse_feedback};
 use crate::overlay::{Encoding, HostPicture, Overlay};
 use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS};
 use crate::resources::{Target, TargetFormat};
+use crate::sampler::{Points, Sampler, Sampling};
+use crate::samples::Soft;
 use crate::scenery::{Area, Light};
 use crate::shader::{ProgramId, ProgramSet, Variant};
 use crate::state::StateGuard;
@@ -30,6 +32,15 @@ pub struct Renderer {
     loaded: Vec<Option<Loaded>>,
     overlay: Overlay,
     visibility: [Option<Target>; BATCH_LIGHTS / GROUP_LIGHTS],
+    soft: Soft,
+    /// Whether the technique paints the frame at hand; it then sees the lights as they are.
+    painting: bool,
+    /// Made when lights are first sampled.
+    sampler: Option<Sampler>,
+    /// What stands for the frame's lights where they are sampled.
+    points: Points,
+    /// For [`Soft::refusal_with`].
+    centers: Vec<Light>,
     /// The tiles that shadows touch: in a batch, in the frame.
     batch_tiles: TileGrid,
     frame_tiles: TileGrid,
@@ -40,6 +51,15 @@ pub struct Renderer {
 struct Loaded {
     method: Box<dyn Method>,
     programs: ProgramSet,
+}
+
+/// What a batch is drawn to and with.
+struct Work<'a> {
+    masks: [&'a Target; 2],
+    tiles: &'a mut TileGrid,
+    /// Where lights are sampled.
+    sampler: Option<&'a mut Sampler>,
+    points: &'a Points,
 }
 
 /// What the last frame did.
@@ -86,6 +106,11 @@ impl Renderer {
             loaded: Technique::NAMES.iter().map(|_| None).collect(),
             overlay,
             visibility: [None, None],
+            soft: Soft::Native,
+            painting: false,
+            sampler: None,
+            points: Points::default(),
+            centers: Vec::new(),
             batch_tiles: TileGrid::default(),
             frame_tiles: TileGrid::default(),
             stats: Stats::default(),
@@ -116,6 +141,16 @@ impl Renderer {
         self.technique
     }
 
+    /// Draws lights with an area in another way from the next frame on.
+    pub fn set_soft(&mut self, soft: Soft) {
+        self.soft = soft;
+    }
+
+    /// How lights with an area are drawn.
+    pub fn soft(&self) -> Soft {
+        self.soft
+    }
+
     /// Compiles the shaders for surfaces and lights like these, unless it was done: the first frame with
     /// such a surface, and such kinds of light, does it otherwise.
     ///
@@ -135,9 +170,14 @@ impl Renderer {
             });
         }
         let variant = Variant::of(surface);
+        let sampled = self.sampling(lights).is_some();
+        let seen = if sampled { &[] } else { lights };
         let loaded = self.loaded[self.technique.index()].as_mut().expect("set_technique has made it");
         let (sources, exact) = (self.technique.programs(), self.technique.is_exact());
-        loaded.programs.ensure(&self.gl, &self.caps, sources, variant, lights, exact)?;
+        loaded.programs.ensure(&self.gl, &self.caps, sources, variant, seen, exact)?;
+        if let (true, Some(sampler)) = (sampled, &mut self.sampler) {
+            sampler.warm_up(&self.gl, &self.caps, variant)?;
+        }
         self.overlay.warm_up(&self.gl, &self.caps, variant, lights)
     }
 
@@ -161,6 +201,7 @@ impl Renderer {
     pub fn overlay(&mut self, frame: &Frame<'_>, encoding: Encoding) -> Result<(), Error> {
         let gamma = encoding.gamma()?;
         let view = self.check(frame)?;
+        self.painting = self.technique.paints();
         let gl = self.gl.clone();
         let guard = StateGuard::new(&gl, self.caps);
         let host = HostPicture { framebuffer: guard.host_framebuffer(), gamma };
@@ -183,8 +224,8 @@ impl Renderer {
                 self.overlay.clear_sums(&gl, &view, &frame.surface)?;
             }
             let program = if one_batch { ProgramId::Overlay } else { ProgramId::Taken };
-            for lights in frame.lights.chunks(BATCH_LIGHTS) {
-                self.draw_visibility(lights, frame, &view)?;
+            for (i, lights) in frame.lights.chunks(BATCH_LIGHTS).enumerate() {
+                self.draw_visibility(i * BATCH_LIGHTS, lights, frame, &view)?;
                 self.draw_screen(program, lights, frame, &view, host)?;
             }
             if !one_batch {
@@ -208,6 +249,7 @@ impl Renderer {
     /// [`Error::Resource`].
     pub fn masks(&mut self, frame: &Frame<'_>, mut shade: impl FnMut(&MaskBatch)) -> Result<(), Error> {
         let view = self.check(frame)?;
+        self.painting = false;
         let gl = self.gl.clone();
         for (i, lights) in frame.lights.chunks(BATCH_LIGHTS).enumerate() {
             let guard = StateGuard::new(&gl, self.caps);
@@ -217,7 +259,7 @@ impl Renderer {
                 if i == 0 {
                     self.prepare(frame, &view)?;
                 }
-                self.draw_visibility(lights, frame, &view)?;
+                self.draw_visibility(i * BATCH_LIGHTS, lights, frame, &view)?;
             }
             drop(guard);
             let [Some(a), Some(b)] = &self.visibility else { continue };
@@ -231,11 +273,25 @@ impl Renderer {
     }
 
     /// Whether the numbers make sense and the technique can do it.
-    fn check(&self, frame: &Frame<'_>) -> Result<View, Error> {
+    fn check(&mut self, frame: &Frame<'_>) -> Result<View, Error> {
         let view = View::new(frame, &self.caps)?;
-        match self.technique.refusal(&frame.scenery()) {
+        match self.soft.refusal_with(&self.technique, &frame.scenery(), &mut self.centers) {
             Some(refusal) => Err(Error::Refused { technique: self.technique.name(), refusal }),
             None => Ok(view),
+        }
+    }
+
+    /// Which points stand for each light with an area; `None` if the technique is to draw areas itself, or there are
+    /// none.
+    fn sampling(&self, lights: &[Light]) -> Option<Sampling> {
+        if self.painting || lights.iter().all(|light| light.area == Area::None) {
+            return None;
+        }
+        match (self.soft, self.technique) {
+            (Soft::Samples { count, pattern }, _) => Some(Sampling::Spread(count, pattern)),
+            // What it paints is no visibility: masks are the average over the same components.
+            (Soft::Native, Technique::Composite(options)) => Some(Sampling::Components(options.components)),
+            (Soft::Native, _) => None,
         }
     }
 
@@ -244,7 +300,17 @@ impl Renderer {
     /// # Safety
     /// A [`StateGuard`] is alive.
     unsafe fn prepare(&mut self, frame: &Frame<'_>, view: &View) -> Result<(), Error> {
+        let sampling = self.sampling(frame.lights);
+        if sampling.is_some() && self.sampler.is_none() {
+            // SAFETY: the caller's.
+            self.sampler = Some(unsafe { Sampler::new(&self.gl)? });
+        }
         self.warm_up(&frame.surface, frame.lights)?;
+        if let (Some(sampling), Some(sampler)) = (sampling, &mut self.sampler) {
+            self.points.of_lights(frame, sampling);
+            // SAFETY: the caller's.
+            unsafe { sampler.prepare(&self.gl, &self.caps, frame)? };
+        }
         let size = (view.viewport[2], view.viewport[3]);
         let soft = frame.lights.iter().any(|light| light.area != Area::None) && self.caps.float_targets();
         let format = if soft { TargetFormat::Rgba16F } else { TargetFormat::Rgba8 };
@@ -254,53 +320,67 @@ impl Renderer {
         }
         self.stats = Stats::default();
         self.frame_tiles.reset(view.size());
-        let (method, pass, ..) = self.pass(frame, view);
         // SAFETY: the caller's.
-        unsafe { method.begin(&pass) }
+        self.with_method(frame, view, |method, pass, _| unsafe { method.begin(pass) })
     }
 
-    /// The method, what it is to work on, its targets and its tiles.
-    fn pass<'a>(
-        &'a mut self,
-        frame: &'a Frame<'a>,
-        view: &'a View,
-    ) -> (&'a mut dyn Method, Pass<'a>, [&'a Target; 2], &'a mut TileGrid) {
+    /// Calls `work` with the method, the frame as the technique sees it, and what is drawn to.
+    fn with_method<R>(
+        &mut self,
+        frame: &Frame<'_>,
+        view: &View,
+        work: impl FnOnce(&mut dyn Method, &Pass<'_>, Work<'_>) -> R,
+    ) -> R {
+        let sampled = self.sampling(frame.lights).is_some();
         let loaded = self.loaded[self.technique.index()].as_mut().expect("set_technique has made it");
+        let hard = if sampled { Frame { lights: &self.points.lights, ..*frame } } else { *frame };
         let pass = Pass {
             gl: &self.gl,
             caps: &self.caps,
-            frame,
+            frame: &hard,
             view,
             technique: &self.technique,
             programs: loaded.programs.of(Variant::of(&frame.surface)),
         };
         let masks = self.visibility.each_ref().map(|target| target.as_ref().expect("prepare has made it"));
-        (loaded.method.as_mut(), pass, masks, &mut self.batch_tiles)
+        let sampler = self.sampler.as_mut().filter(|_| sampled);
+        work(
+            loaded.method.as_mut(),
+            &pass,
+            Work { masks, tiles: &mut self.batch_tiles, sampler, points: &self.points },
+        )
     }
 
-    /// Draws the visibility of one batch of lights.
+    /// Draws the visibility of one batch of lights, the first of which is the frame's light `first`.
     ///
     /// # Safety
     /// A [`StateGuard`] is alive, [`Self::prepare`] was called, the surface's textures exist.
     unsafe fn draw_visibility(
         &mut self,
+        first: usize,
         lights: &[Light],
         frame: &Frame<'_>,
         view: &View,
     ) -> Result<(), Error> {
-        let (method, pass, masks, tiles) = self.pass(frame, view);
-        tiles.reset(view.size());
-        // SAFETY: the caller's.
-        unsafe {
+        let (pairs, polygons) = self.with_method(frame, view, |method, pass, work| {
+            let Work { masks, tiles, sampler, points } = work;
+            tiles.reset(view.size());
             let gl = pass.gl;
-            gl.viewport(0, 0, view.viewport[2], view.viewport[3]);
-            for target in masks {
-                gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
-                gl.clear_buffer_f32_slice(glow::COLOR, 0, &[1.0; 4]);
+            // SAFETY: the caller's.
+            unsafe {
+                gl.viewport(0, 0, view.viewport[2], view.viewport[3]);
+                for target in masks {
+                    gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
+                    gl.clear_buffer_f32_slice(glow::COLOR, 0, &[1.0; 4]);
+                }
+                let mut batch = Batch { lights, masks, tiles };
+                match sampler {
+                    Some(sampler) => sampler.draw(method, pass, &mut batch, first, points)?,
+                    None => method.draw_visibility(pass, &mut batch)?,
+                }
             }
-            method.draw_visibility(&pass, &mut Batch { lights, masks, tiles })?;
-        }
-        let (pairs, polygons) = method.counts();
+            Ok(method.counts())
+        })?;
         self.stats = Stats { pairs, polygons, batches: self.stats.batches + 1 };
         self.frame_tiles.add(&self.batch_tiles);
         Ok(())
@@ -317,22 +397,24 @@ impl Renderer {
         encoding: Encoding,
         host: HostPicture,
     ) -> Result<bool, Error> {
-        let (method, pass, ..) = self.pass(frame, view);
-        let Some(painter) = method.painter(&pass) else { return Ok(false) };
-        let (gl, [x, y, width, height]) = (pass.gl, view.viewport);
-        // SAFETY: the caller's.
-        unsafe {
-            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
-            gl.viewport(x, y, width, height);
-            let others = OtherBuffers::leave_alone(gl, *pass.caps, host.framebuffer);
-            let painted = painter.paint(&pass, encoding);
-            if let Some(others) = others {
+        let counts = self.with_method(frame, view, |method, pass, _| {
+            let Some(painter) = method.painter(pass) else { return Ok(None) };
+            let (gl, [x, y, width, height]) = (pass.gl, view.viewport);
+            // SAFETY: the caller's.
+            unsafe {
                 gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
-                others.restore(gl);
+                gl.viewport(x, y, width, height);
+                let others = OtherBuffers::leave_alone(gl, *pass.caps, host.framebuffer);
+                let painted = painter.paint(pass, encoding);
+                if let Some(others) = others {
+                    gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
+                    others.restore(gl);
+                }
+                painted?;
             }
-            painted?;
-        }
-        let (pairs, polygons) = method.counts();
+            Ok(Some(method.counts()))
+        })?;
+        let Some((pairs, polygons)) = counts else { return Ok(false) };
         self.stats = Stats { pairs, polygons, batches: 1 };
         Ok(true)
     }
@@ -366,6 +448,9 @@ impl Drop for Renderer {
                 loaded.programs.delete(gl);
             }
             self.overlay.delete(gl);
+            if let Some(sampler) = &mut self.sampler {
+                sampler.delete(gl);
+            }
             self.visibility.iter_mut().filter_map(Option::take).for_each(|target| target.delete(gl));
         }
     }

@@ -268,6 +268,12 @@ pub(crate) enum Blend {
     Product,
     /// What is drawn over what is there, by its alpha; the target keeps its own.
     Over,
+    /// What is drawn.
+    Replace,
+    /// The larger of the two, channel by channel.
+    Max,
+    /// The sum of the colours, the larger alpha.
+    AddAndCover,
 }
 
 impl Blend {
@@ -276,12 +282,15 @@ impl Blend {
     /// # Safety
     /// `caps` are the context's, and a [`StateGuard`] will put the host's blending back.
     pub(crate) unsafe fn apply(self, gl: &glow::Context, caps: Caps) {
-        use glow::{FUNC_ADD, MIN, ONE, ONE_MINUS_SRC_ALPHA, SRC_ALPHA, SRC_COLOR, ZERO};
+        use glow::{FUNC_ADD, MAX, MIN, ONE, ONE_MINUS_SRC_ALPHA, SRC_ALPHA, SRC_COLOR, ZERO};
         let (function, equation) = match self {
             Self::Min => ([ONE, ONE, ONE, ONE], [MIN; 2]),
             Self::Add => ([ONE, ONE, ONE, ONE], [FUNC_ADD; 2]),
             Self::Product => ([ZERO, SRC_COLOR, ZERO, SRC_ALPHA], [FUNC_ADD; 2]),
             Self::Multiply => ([ZERO, SRC_COLOR, ZERO, ONE], [FUNC_ADD; 2]),
+            Self::Max => ([ONE, ONE, ONE, ONE], [MAX; 2]),
+            Self::AddAndCover => ([ONE, ONE, ONE, ONE], [FUNC_ADD, MAX]),
+            Self::Replace => ([ONE, ZERO, ONE, ZERO], [FUNC_ADD; 2]),
             Self::Over => ([SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ZERO, ONE], [FUNC_ADD; 2]),
         };
         // SAFETY: the caller's.

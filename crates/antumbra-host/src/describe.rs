@@ -4,7 +4,7 @@ use crate::HostError;
 use antumbra::glam::{DMat4, DVec3};
 use antumbra::math::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle, TriangleMesh};
 use antumbra::technique::Part;
-use antumbra::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery, Technique};
+use antumbra::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery, Soft, Technique};
 use antumbra_scene::{self as scene, LightKind, Moment, Scene};
 use std::sync::Arc;
 
@@ -71,13 +71,13 @@ pub fn describe(scene: &Scene, moment: &Moment) -> Result<Described, HostError> 
     Ok(described)
 }
 
-/// What a technique cannot do of a scene: names the object, and the techniques that can. `None` if it can do it.
-pub fn objection(scene: &Scene, moment: &Moment, technique: &Technique) -> Option<HostError> {
+/// What a technique cannot do of a scene: names the object, and what can. `None` if it can do it.
+pub fn objection(scene: &Scene, moment: &Moment, technique: &Technique, soft: Soft) -> Option<HostError> {
     let described = match describe(scene, moment) {
         Ok(described) => described,
         Err(error) => return Some(error),
     };
-    let refusal = technique.refusal(&described.scenery())?;
+    let refusal = soft.refusal(technique, &described.scenery())?;
     let owner = |id: u32| &moment.primitives[id as usize - 1];
     let named = |id: u32| format!("object \"{}\"", scene.objects[owner(id).object].name);
     let mut what = format!("the technique {} {}", technique.name(), refusal.reason);
@@ -95,10 +95,15 @@ pub fn objection(scene: &Scene, moment: &Moment, technique: &Technique) -> Optio
         Part::Receivers => "the scene".into(),
         Part::Options => "the options".into(),
     };
-    let able = Technique::all().filter(|other| other.refusal(&described.scenery()).is_none());
+    let able = Technique::all().filter(|other| soft.refusal(other, &described.scenery()).is_none());
     let mut names: Vec<&str> = able.map(|other| other.name()).collect();
     names.push("raytraced");
-    Some(HostError::Unsupported { object, what, instead: format!("use --technique {}", names.join(" or ")) })
+    let mut instead = format!("use --technique {}", names.join(" or "));
+    let sampled = Soft::samples(16);
+    if soft == Soft::Native && sampled.refusal(technique, &described.scenery()).is_none() {
+        instead += &format!(", or --soft {sampled}");
+    }
+    Some(HostError::Unsupported { object, what, instead })
 }
 
 fn light(light: &scene::Light) -> Light {

@@ -7,7 +7,7 @@ use crate::targets::ColorFormat;
 use antumbra::glam::{DVec3, Vec3};
 use antumbra::math::Light as Place;
 use antumbra::math::blocking::half_plane_coverage;
-use antumbra::{BATCH_LIGHTS, ShaderLight, Technique};
+use antumbra::{BATCH_LIGHTS, ShaderLight, Soft, Technique};
 use antumbra_scene::Scene;
 use glow::{HasContext, PixelPackData};
 
@@ -28,6 +28,8 @@ pub struct RenderOptions {
     pub shadows: bool,
     /// How they are found.
     pub technique: Technique,
+    /// How lights with an area cast them.
+    pub soft: Soft,
 }
 
 /// A picture, rows from top to bottom.
@@ -48,10 +50,11 @@ impl Stage {
     /// [`HostError::Unsupported`] names what cannot be drawn; see also [`Stage::draw`].
     pub fn render(&mut self, scene: &Scene, options: &RenderOptions) -> Result<Rendered, HostError> {
         let RenderOptions { width, height, .. } = *options;
-        if let Some(error) = objection(scene, &scene.moment(options.time), &options.technique) {
+        if let Some(error) = objection(scene, &scene.moment(options.time), &options.technique, options.soft) {
             return Err(error);
         }
         self.set_technique(options.technique)?;
+        self.set_soft(options.soft);
         let setting = Setting::new(scene, options.time, f64::from(width) / f64::from(height))?;
         self.draw(&setting, width, height, options.msaa, ColorFormat::Rgba16F, Buffers::All)?;
         if options.shadows {

@@ -9,7 +9,7 @@ use crate::targets::{ColorFormat, Targets};
 use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3};
 use antumbra::math::Plane;
 use antumbra::{
-    Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Surface, Technique,
+    Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Soft, Surface, Technique,
 };
 use antumbra_scene::{Moment, Primitive, Scene};
 use glow::HasContext;
@@ -150,6 +150,11 @@ impl Stage {
     /// [`HostError::Shadows`] for what the driver cannot make.
     pub fn set_technique(&mut self, technique: Technique) -> Result<(), HostError> {
         Ok(self.shadows.set_technique(technique)?)
+    }
+
+    /// Draws lights with an area in another way from now on.
+    pub fn set_soft(&mut self, soft: Soft) {
+        self.shadows.set_soft(soft);
     }
 
     /// The shadow renderer.
@@ -324,6 +329,7 @@ impl Stage {
             meshes: &setting.described.meshes,
             receivers: &setting.described.receivers,
             bounds: &setting.bounds,
+            components: &[],
             ambient: setting.ambient,
         })
     }

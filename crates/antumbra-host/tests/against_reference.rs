@@ -2,7 +2,7 @@
 
 mod common;
 
-use antumbra::Technique;
+use antumbra::{Soft, Technique};
 use antumbra_host::{Api, RenderOptions, Stage};
 use antumbra_reference::Tracer;
 use antumbra_scene::Scene;
@@ -41,8 +41,16 @@ struct Found {
 fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
     let (width, height) = (scene.image.width, scene.image.height);
     let technique = Technique::default();
-    let options =
-        RenderOptions { time: 0.0, width, height, msaa: 1, visibility: true, shadows: true, technique };
+    let options = RenderOptions {
+        time: 0.0,
+        width,
+        height,
+        msaa: 1,
+        visibility: true,
+        shadows: true,
+        technique,
+        soft: Soft::Native,
+    };
     let drawn = stage.render(scene, &options).expect("the scene draws");
     let tracer = Tracer::new(scene, 0.0);
     let mut found = Found::default();
@@ -171,8 +179,16 @@ fn pictures_are_the_traced_ones() {
     for (n, scene) in scenes.iter().enumerate() {
         let (width, height) = (480, 270);
         let technique = Technique::default();
-        let options =
-            RenderOptions { time: 0.5, width, height, msaa: 1, visibility: false, shadows: true, technique };
+        let options = RenderOptions {
+            time: 0.5,
+            width,
+            height,
+            msaa: 1,
+            visibility: false,
+            shadows: true,
+            technique,
+            soft: Soft::Native,
+        };
         let drawn = stage.render(scene, &options).expect("the scene draws");
         let tracer = Tracer::new(scene, 0.5);
         let traced = tracer.render(width, height, 1, &|_, _| {});

@@ -3,7 +3,7 @@
 
 mod common;
 
-use antumbra::Technique;
+use antumbra::{Soft, Technique};
 use antumbra_host::{Api, RenderOptions, Stage, objection};
 use antumbra_reference::Tracer;
 use antumbra_scene::Scene;
@@ -16,7 +16,16 @@ const SCENES: u64 = 12;
 fn options(technique: &str, msaa: u32) -> RenderOptions {
     let technique = Technique::parse(technique).expect("a technique");
     let (width, height) = (320, 180);
-    RenderOptions { time: 0.0, width, height, msaa, visibility: true, shadows: true, technique }
+    RenderOptions {
+        time: 0.0,
+        width,
+        height,
+        msaa,
+        visibility: true,
+        shadows: true,
+        technique,
+        soft: Soft::Native,
+    }
 }
 
 /// Discs that lie level and triangles in any pose over a floor, under all hard lights.
@@ -144,7 +153,7 @@ fn the_papers_scenes_are_painted() {
 fn scenes_it_cannot_draw_are_refused_by_name() {
     let says = |scene: &Scene| {
         let paper = Technique::parse("composite").expect("it exists");
-        objection(scene, &scene.moment(0.0), &paper).map(|error| error.to_string())
+        objection(scene, &scene.moment(0.0), &paper, Soft::Native).map(|error| error.to_string())
     };
     for (name, object, why) in [
         ("winter-evening", "light \"moon\"", "point lights alone"),

@@ -51,8 +51,16 @@ struct Wrong {
 fn draw(stage: &mut Stage, scene: &Scene, technique: &str) -> Vec<Vec<f32>> {
     let (width, height) = (scene.image.width, scene.image.height);
     let technique = Technique::parse(technique).expect("a technique");
-    let options =
-        RenderOptions { time: 0.0, width, height, msaa: 1, visibility: true, shadows: false, technique };
+    let options = RenderOptions {
+        time: 0.0,
+        width,
+        height,
+        msaa: 1,
+        visibility: true,
+        shadows: false,
+        technique,
+        soft: antumbra::Soft::Native,
+    };
     stage.render(scene, &options).expect("the scene draws").visibility
 }
 

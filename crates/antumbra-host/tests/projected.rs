@@ -2,7 +2,7 @@
 
 mod common;
 
-use antumbra::Technique;
+use antumbra::{Soft, Technique};
 use antumbra_host::{Api, RenderOptions, Stage, describe};
 use antumbra_reference::{Ray, Sampling, Tracer};
 use antumbra_scene::Scene;
@@ -61,8 +61,16 @@ fn has_edge(scene: &Scene, tracer: &Tracer, light: usize, [x, y]: [u32; 2]) -> b
 fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
     let (width, height) = (scene.image.width, scene.image.height);
     let technique = projected();
-    let options =
-        RenderOptions { time: 0.0, width, height, msaa: 1, visibility: true, shadows: true, technique };
+    let options = RenderOptions {
+        time: 0.0,
+        width,
+        height,
+        msaa: 1,
+        visibility: true,
+        shadows: true,
+        technique,
+        soft: Soft::Native,
+    };
     let drawn = stage.render(scene, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
     let moment = scene.moment(0.0);
     let described = describe(scene, &moment).expect("a right scene");

@@ -171,6 +171,7 @@ fn a_model_is_drawn_as_it_is_traced() {
         visibility: false,
         shadows: false,
         technique: antumbra::Technique::default(),
+        soft: antumbra::Soft::Native,
     };
     let drawn = stage.render(&scene, &options).expect("a picture").image;
     let tracer = Tracer::new(&scene, 0.0);

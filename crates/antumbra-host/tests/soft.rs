@@ -2,7 +2,7 @@
 
 mod common;
 
-use antumbra::Technique;
+use antumbra::{Soft, Technique};
 use antumbra_host::{Api, RenderOptions, Stage};
 use antumbra_reference::{Ray, Tracer};
 use antumbra_scene::Scene;
@@ -48,6 +48,7 @@ fn compare(stage: &mut Stage, scene: &Scene, technique: Technique, found: &mut F
         visibility: true,
         shadows: true,
         technique,
+        soft: Soft::Native,
     };
     let drawn = stage.render(scene, &options).expect("the scene draws");
     let tracer = Tracer::new(scene, 0.0);

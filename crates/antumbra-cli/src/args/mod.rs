@@ -11,6 +11,8 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 pub(crate) use values::{MAX_SIDE, Size};
 use values::{parse_frames, parse_msaa, parse_samples, parse_size, parse_time};
 
+use antumbra::Soft;
+
 use crate::commands::FigureName;
 use crate::error::CliError;
 use crate::technique::Technique;
@@ -175,6 +177,10 @@ pub(crate) struct RenderArgs {
     /// light's contribution
     #[arg(long, value_enum, value_name = "paper|physical", hide_possible_values = true)]
     pub(crate) shade: Option<Shade>,
+    /// How lights with an area are drawn: in the technique's own way, or as N hard lights whose shadows are averaged
+    /// (N:row for a row of them)
+    #[arg(long, value_name = "native|samples:N")]
+    pub(crate) soft: Option<Soft>,
     /// Samples a pixel of multisampling: 1, 2, 4, 8, ...; with the CPU, rays a pixel
     #[arg(long, value_name = "N", value_parser = parse_msaa, allow_hyphen_values = true)]
     pub(crate) msaa: Option<u32>,
@@ -217,6 +223,10 @@ pub(crate) struct CompareArgs {
     /// The techniques, with options, instead of all of them (`antumbra render --help` lists them)
     #[arg(long, value_name = "A,B:key=value,..", value_delimiter = ',', value_parser = Technique::parse)]
     pub(crate) techniques: Vec<Technique>,
+    /// How lights with an area are drawn, with all techniques: in their own way, or as N hard lights whose shadows are
+    /// averaged; for one technique alone write NAME+samples:N
+    #[arg(long, value_name = "native|samples:N")]
+    pub(crate) soft: Option<Soft>,
     /// Size in pixels instead of the scene's own
     #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,

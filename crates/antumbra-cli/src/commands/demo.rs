@@ -83,7 +83,7 @@ fn open(backend: Option<Backend>) -> Result<Option<OpenGl>, CliError> {
 fn draw_one(gl: Option<&mut OpenGl>, scene: &Scene, size: Size) -> Result<Drawing, CliError> {
     let request = Request { scene, size, time: 0.0, visibility: false, shadows: true };
     if let Some(gl) = gl {
-        return gl.draw(&request, &antumbra::Technique::default(), None);
+        return gl.draw(&request, (antumbra::Technique::default(), antumbra::Soft::Native), None);
     }
     Ok(draw::trace(&request, CPU_SAMPLES, &|_, _, _| ()))
 }

@@ -17,7 +17,7 @@ const CPU_SAMPLES: u32 = 64;
 /// or OpenGL.
 pub(crate) fn run(arguments: &RenderArgs) -> Result<(), CliError> {
     match technique(arguments)? {
-        Technique::Gl(technique) => with_opengl(arguments, technique),
+        Technique::Gl(technique, soft) => with_opengl(arguments, technique, soft),
         Technique::Raytraced => trace::draw(&arguments.picture, arguments.msaa.unwrap_or(CPU_SAMPLES)),
     }
 }
@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &RenderArgs) -> Result<(), CliError> {
 /// The technique, which the backend decides where it is not named, and the reverse.
 fn technique(arguments: &RenderArgs) -> Result<Technique, CliError> {
     let technique = match (&arguments.technique, arguments.backend) {
-        (Some(technique @ Technique::Gl(_)), Some(Backend::Cpu)) => {
+        (Some(technique @ Technique::Gl(..)), Some(Backend::Cpu)) => {
             return Err(CliError::Usage(format!(
                 "technique `{}` draws with OpenGL; leave out --backend cpu, or use --technique raytraced",
                 technique.name()
@@ -39,7 +39,13 @@ fn technique(arguments: &RenderArgs) -> Result<Technique, CliError> {
         }
         (Some(technique), _) => *technique,
         (None, Some(Backend::Cpu)) => Technique::Raytraced,
-        (None, Some(Backend::Gl) | None) => Technique::Gl(antumbra::Technique::default()),
+        (None, Some(Backend::Gl) | None) => antumbra::Technique::default().into(),
+    };
+    let technique = match arguments.soft {
+        Some(soft) => {
+            technique.with_soft(soft).map_err(|what| CliError::Usage(format!("--soft {soft}: {what}")))?
+        }
+        None => technique,
     };
     match arguments.shade {
         Some(shade) => technique
@@ -49,14 +55,18 @@ fn technique(arguments: &RenderArgs) -> Result<Technique, CliError> {
     }
 }
 
-fn with_opengl(arguments: &RenderArgs, technique: antumbra::Technique) -> Result<(), CliError> {
+fn with_opengl(
+    arguments: &RenderArgs,
+    technique: antumbra::Technique,
+    soft: antumbra::Soft,
+) -> Result<(), CliError> {
     let job = Job::new(&arguments.picture)?;
     let progress = Progress::new("rendering", "scenes");
     progress.set(0, 1);
     let mut gl = OpenGl::open().map_err(CliError::OpenGl)?;
     let driver = gl.driver();
-    let drawing = gl.draw(&job.request(&arguments.picture), &technique, arguments.msaa)?;
+    let drawing = gl.draw(&job.request(&arguments.picture), (technique, soft), arguments.msaa)?;
     progress.set(1, 1);
     drop(progress);
-    job.finish(&arguments.picture, &Technique::Gl(technique), &drawing, Some(driver))
+    job.finish(&arguments.picture, &Technique::Gl(technique, soft), &drawing, Some(driver))
 }

@@ -7,10 +7,14 @@ use glow::HasContext;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-/// The overlay's programs and every technique's.
+/// The overlay's programs, those that sample lights, and every technique's.
 fn programs() -> Vec<&'static ProgramSource> {
     const OVERLAY: &[ProgramSource] = &OVERLAY_PROGRAMS;
-    OVERLAY.iter().chain(Technique::all().flat_map(|technique| technique.programs())).collect()
+    OVERLAY
+        .iter()
+        .chain(crate::sampler::SAMPLE_PROGRAMS)
+        .chain(Technique::all().flat_map(|technique| technique.programs()))
+        .collect()
 }
 
 fn required() -> bool {

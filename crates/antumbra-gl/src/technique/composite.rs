@@ -4,6 +4,7 @@
 //! (`antumbra_math::composite`), bounded by a polygon on the screen. The papers' shade is painted over the host's
 //! pixels; or the same parts take the light's contribution, blended by minimum. Theory: docs/theory/composite.md.
 
+mod components;
 mod parts;
 
 use super::options::{OptionValue, choices, options};
@@ -11,12 +12,15 @@ use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::pairs::{BATCH_LIGHTS, Vertex};
 use crate::resources::UploadRing;
 use crate::scenery::{Receiver, ReceiverShape, Scenery};
-use crate::shader::{COVERAGE, LightKind, Program, ProgramSource, SURFACE, Stage};
+use crate::shader::{COVERAGE, LightKind, Program, ProgramSource, SCREEN, SURFACE, Stage};
 use crate::state::Blend;
 use crate::{Caps, Encoding, Error};
 use antumbra_math::Light as Place;
 pub use antumbra_math::composite::SphereForm;
 use antumbra_math::plane_shadow::{Bounds, PlaneFrame};
+use components::Collected;
+pub(crate) use components::push_components;
+pub use components::{Component, components};
 use glow::HasContext;
 use parts::{Drawn, PartBuilder, paints};
 
@@ -68,6 +72,9 @@ options! {
         pub shade: Shade = Shade::Paper, ();
         /// The circle that stands for a sphere.
         pub sphere: SphereForm = SphereForm::Tangent, ();
+        /// Point lights that a light with an area is a collection of, painted: one in its centre, the others on its
+        /// rim, as [`components()`] says; [`crate::Frame::components`] puts them elsewhere.
+        pub components: u32 = 3, 1..=64;
     }
 }
 
@@ -88,21 +95,47 @@ macro_rules! part_program {
                     include_str!("../shaders/composite/part.frag.glsl"),
                 ],
             },
-            uniforms: &["u_receiver", "u_receiver_id"],
+            uniforms: &["u_receiver", "u_receiver_id", "u_darkness"],
             lights: LightKind::Any,
         }
     };
 }
 
-/// What it compiles, by [`VISIBILITY`] and [`PAINT`].
-pub(super) const PROGRAMS: &[ProgramSource] =
-    &[part_program!("composite visibility", ""), part_program!("composite paint", "#define PAINT\n")];
+macro_rules! screen_program {
+    ($name:literal, $file:literal, $uniforms:expr) => {
+        ProgramSource {
+            name: $name,
+            vertex: Stage { defines: "", parts: &[SCREEN] },
+            fragment: Stage {
+                defines: "",
+                parts: &[COVERAGE, SURFACE, include_str!(concat!("../shaders/composite/", $file))],
+            },
+            uniforms: $uniforms,
+            lights: LightKind::Any,
+        }
+    };
+}
+
+/// What it compiles, in the order of [`VISIBILITY`] to [`SOFT_PAINT`].
+pub(super) const PROGRAMS: &[ProgramSource] = &[
+    part_program!("composite visibility", ""),
+    part_program!("composite paint", "#define PAINT\n"),
+    part_program!("composite components", "#define COVER\n"),
+    screen_program!("composite gather", "gather.frag.glsl", &["u_cover", "u_dark", "u_share"]),
+    screen_program!("composite soft paint", "soft_paint.frag.glsl", &["u_sums", "u_sums_offset", "u_linear"]),
+];
 const VISIBILITY: usize = 0;
 const PAINT: usize = 1;
+const COVER: usize = 2;
+const GATHER: usize = 3;
+const SOFT_PAINT: usize = 4;
 
 pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
     let refused = |part, reason: &str| Some(Refusal { part, reason: reason.into() });
-    if let Some(refusal) = Refusal::of_areas(scenery.lights) {
+    // Painted, they are collections of points.
+    if !paints(options)
+        && let Some(refusal) = Refusal::of_areas(scenery.lights)
+    {
         return Some(refusal);
     }
     let receiver = match scenery.receivers {
@@ -148,6 +181,7 @@ fn receiver_frame(receiver: &Receiver) -> Option<(PlaneFrame, Bounds)> {
 pub(super) struct State {
     uploads: UploadRing,
     parts: PartBuilder,
+    collected: Collected,
 }
 
 impl State {
@@ -156,7 +190,7 @@ impl State {
     pub(super) unsafe fn new(gl: &glow::Context, _: &Caps) -> Result<Self, Error> {
         // SAFETY: the caller's.
         let uploads = unsafe { UploadRing::new(gl, size_of::<Vertex>() as i32)? };
-        Ok(Self { uploads, parts: PartBuilder::default() })
+        Ok(Self { uploads, parts: PartBuilder::default(), collected: Collected::default() })
     }
 
     /// Uploads the packed parts and binds them.
@@ -235,15 +269,41 @@ impl Method for State {
 
     unsafe fn delete(&mut self, gl: &glow::Context) {
         // SAFETY: the caller's.
-        unsafe { self.uploads.delete(gl) };
+        unsafe {
+            self.uploads.delete(gl);
+            self.collected.delete(gl);
+        }
     }
 }
 
 impl Painter for State {
     unsafe fn paint(&mut self, pass: &Pass<'_>, encoding: Encoding) -> Result<(), Error> {
-        let gl = pass.gl;
-        // In batches, so that memory does not depend on the number of lights.
-        for lights in pass.frame.lights.chunks(BATCH_LIGHTS) {
+        let Technique::Composite(Options { components, .. }) = *pass.technique else { return Ok(()) };
+        let (gl, all) = (pass.gl, pass.frame.lights);
+        let mut next = 0;
+        // In batches, so that memory does not depend on the number of lights; in their order, since later ones are
+        // painted over earlier ones.
+        while next < all.len() {
+            if self.collected.take(pass.frame, next, components) {
+                if !pass.caps.float_targets() {
+                    return Err(Error::Unsupported {
+                        what: "painting lights with an area",
+                        needs: "floating-point render targets (EXT_color_buffer_float)",
+                    });
+                }
+                // SAFETY: the caller's.
+                unsafe { self.paint_collection(pass, encoding)? };
+                next += 1;
+                continue;
+            }
+            let first = next;
+            next += 1;
+            while next < all.len().min(first + BATCH_LIGHTS)
+                && !self.collected.take(pass.frame, next, components)
+            {
+                next += 1;
+            }
+            let lights = &all[first..next];
             self.parts.pack(lights, pass.view, Drawn::Shade(encoding));
             if self.parts.vertices.is_empty() {
                 continue;

@@ -136,6 +136,17 @@ impl Technique {
     }
 }
 
+impl Technique {
+    /// Whether [`crate::Renderer::overlay`] paints shadows over the host's pixels, where others take light away.
+    pub fn paints(&self) -> bool {
+        match self {
+            Self::Composite(options) => options.shade == composite::Shade::Paper,
+            Self::Projected(options) => options.shade == projected::Shade::Paper,
+            _ => false,
+        }
+    }
+}
+
 impl Default for Technique {
     fn default() -> Self {
         Self::Analytic(analytic::Options::default())

@@ -92,16 +92,16 @@ fn on_floor(shot: &Shot<'_>, x: f64, y: f64) -> DVec3 {
 const GRID: usize = 8;
 
 /// What is seen of a value on the floor over one pixel.
-struct Pixel<T> {
+pub(crate) struct Pixel<T> {
     /// At the points of a grid over the pixel; `None` where anything else than the floor is seen.
-    values: Option<Vec<T>>,
+    pub(crate) values: Option<Vec<T>>,
     /// At points half a pixel apart, to a pixel around it.
     around: Vec<T>,
     /// Whether all these are one.
-    sure: bool,
+    pub(crate) sure: bool,
 }
 
-fn pixels<'a, T: PartialEq>(
+pub(crate) fn pixels<'a, T: PartialEq>(
     shot: &'a Shot<'_>,
     value: impl Fn(DVec3) -> T + 'a,
 ) -> impl Iterator<Item = Pixel<T>> + 'a {
@@ -122,12 +122,12 @@ fn pixels<'a, T: PartialEq>(
     })
 }
 
-fn floor_frame() -> PlaneFrame {
+pub(crate) fn floor_frame() -> PlaneFrame {
     PlaneFrame::of_plane(&FLOOR).expect("a plane")
 }
 
 /// Every occluder's shadow from a light.
-fn shadows(world: &World, light: &Light, form: SphereForm) -> Vec<CompositeShadow> {
+pub(crate) fn shadows(world: &World, light: &Light, form: SphereForm) -> Vec<CompositeShadow> {
     let cast = |o: &Occluder| cast(&o.shape, &light.place, &floor_frame(), form).expect("the papers' pose");
     world.occluders.iter().map(cast).collect()
 }
@@ -180,14 +180,19 @@ fn masks_are_the_published_shapes() {
 }
 
 /// Some host's picture: nowhere the grey of a shadow, and light enough that paint darkens it.
-fn host_colors() -> Vec<[u8; 4]> {
+pub(crate) fn host_colors() -> Vec<[u8; 4]> {
     (0..(VIEWPORT[2] * VIEWPORT[3]) as u32)
         .map(|i| [250 + (i % 5) as u8, 255, 252, (i % 251) as u8])
         .collect()
 }
 
 /// Paints over that picture.
-fn painted(gl: &Gl, renderer: &mut Renderer, frame: &Frame<'_>, encoding: Encoding) -> Vec<[u8; 4]> {
+pub(crate) fn painted(
+    gl: &Gl,
+    renderer: &mut Renderer,
+    frame: &Frame<'_>,
+    encoding: Encoding,
+) -> Vec<[u8; 4]> {
     let canvas = Canvas::new(gl);
     let rgba8 = [glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE];
     let start = texture(&gl.gl, [VIEWPORT[2], VIEWPORT[3]], rgba8, &host_colors());
@@ -260,7 +265,7 @@ fn paint_is_exactly_255_k() {
 }
 
 /// The sRGB curve (IEC 61966-2-1).
-fn srgb_decoded(k: f64) -> f64 {
+pub(crate) fn srgb_decoded(k: f64) -> f64 {
     if k <= 0.04045 { k / 12.92 } else { ((k + 0.055) / 1.055).powf(2.4) }
 }
 

@@ -49,6 +49,7 @@ pub(crate) fn classify(
                 visibility: true,
                 shadows: false,
                 technique,
+                soft: antumbra::Soft::Native,
             };
             stage
                 .render(scene, &options)

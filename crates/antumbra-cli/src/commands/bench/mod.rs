@@ -7,7 +7,7 @@ mod report;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use antumbra_scene::Scene;
+use antumbra_scene::{LightKind, Scene};
 use clap::ValueEnum;
 
 use crate::args::BenchArgs;
@@ -87,14 +87,19 @@ fn measure(
     let takes_part: Vec<bool> = objections.iter().map(Option::is_none).collect();
     let timings = contest.measure((&scene, 0.0), place.size, frames, &takes_part, told)?;
     for ((technique, timing), objection) in techniques.iter().zip(timings).zip(objections) {
+        let soft = scene.lights.iter().any(has_area).then(|| technique.soft());
         let technique = technique.to_string();
         if let Some(timing) = timing {
-            report.rows.push(Row::new(figure.name, technique, place, &scene, timing));
+            report.rows.push(Row::new(figure.name, (technique, soft), place, &scene, timing));
         } else if let Some(reason) = objection {
             report.refused.push(Refusal { technique, scene: place.scene.clone(), reason });
         }
     }
     Ok(())
+}
+
+fn has_area(light: &antumbra_scene::Light) -> bool {
+    !matches!(light.kind, LightKind::Point | LightKind::Directional { .. } | LightKind::Spot { .. })
 }
 
 /// The files that are written.

@@ -34,7 +34,7 @@ pub(super) struct Row {
     /// The technique, with the options that were set.
     pub(super) technique: String,
     /// How shadows of lights with an area are made; `null` where no light has one.
-    pub(super) soft: Option<&'static str>,
+    pub(super) soft: Option<String>,
     /// The scene; `scenes/<scene>.toml`.
     pub(super) scene: String,
     /// How many lights.
@@ -77,7 +77,7 @@ impl fmt::Display for Refusal {
 impl Row {
     pub(super) fn new(
         figure: FigureName,
-        technique: String,
+        (technique, soft): (String, Option<String>),
         place: &Place,
         scene: &Scene,
         timing: Timing,
@@ -86,7 +86,7 @@ impl Row {
         Self {
             figure: figure.text(),
             technique,
-            soft: None,
+            soft,
             scene: place.scene.clone(),
             lights: scene.lights.len(),
             occluders: casting.map(|object| object.parts.len()).sum(),

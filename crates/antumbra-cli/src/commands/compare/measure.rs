@@ -90,13 +90,14 @@ pub(super) fn compare(
     let mut drawings = Vec::new();
     let mut without = PictureError { rmse: f64::NAN, flip: f64::NAN };
     for (done, technique) in (1..).zip(techniques) {
-        let Technique::Gl(spec) = technique else { continue };
+        let Technique::Gl(spec, soft) = technique else { continue };
         progress.message(&technique.to_string());
         if done == 1 {
             // Without shadows all techniques are one.
-            without = picture_error(subject, &gl.draw(&request, spec, None)?.pixels, &truth);
+            without = picture_error(subject, &gl.draw(&request, (*spec, *soft), None)?.pixels, &truth);
         }
-        let drawing = gl.draw(&Request { visibility: true, shadows: true, ..request }, spec, None)?;
+        let drawing =
+            gl.draw(&Request { visibility: true, shadows: true, ..request }, (*spec, *soft), None)?;
         drawings.push((technique, drawing));
         progress.set(done, techniques.len() as u64);
     }

@@ -60,6 +60,13 @@ pub(crate) fn run(arguments: &CompareArgs) -> Result<(), CliError> {
         check_file(path)?;
     }
     let asked = if arguments.techniques.is_empty() { Technique::all() } else { arguments.techniques.clone() };
+    let asked = match arguments.soft {
+        // The reference has a way of its own.
+        Some(soft) => {
+            asked.into_iter().map(|technique| technique.with_soft(soft).unwrap_or(technique)).collect()
+        }
+        None => asked,
+    };
     let (able, refused) = choose(asked, &scene, arguments.time);
     if able.is_empty() {
         return Err(nothing_to_compare(&arguments.scene, &refused));

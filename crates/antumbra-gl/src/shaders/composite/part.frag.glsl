@@ -1,10 +1,14 @@
 // One part of a shadow on the receiver.
 //
-// PAINT: its grey, over the host's pixels. Otherwise the visibility of its light, blended into the light's
+// PAINT: its grey, over the host's pixels. COVER: how much of the pixel it covers, or that times its darkness, into
+// the component's channel, blended by maximum. Otherwise the visibility of its light, blended into the light's
 // channel by minimum: the minimum of hard visibilities is their union's.
 
 uniform vec4 u_receiver[5];         // view space: its plane, then its sides, positive inside; (0, 1) for none
 uniform highp uint u_receiver_id;   // 0: none
+#ifdef COVER
+uniform float u_darkness;           // 0 for what is covered, 1 for that times the darkness
+#endif
 
 flat in vec4 v_blocker[BLOCKER_TEXELS];
 flat in vec4 v_channel;
@@ -38,7 +42,9 @@ void main() {
     if (!(coverage > 0.0)) {
         discard;
     }
-#ifdef PAINT
+#if defined(COVER)
+    o_result = v_channel * (coverage * mix(1.0, 1.0 - kind.x, u_darkness));
+#elif defined(PAINT)
     o_result = vec4(kind.xxx, coverage);
 #else
     o_result = vec4(1.0) - v_channel * coverage;

@@ -23,6 +23,8 @@ pub(super) enum Drawn<'a> {
     /// Their shade, as the pixels have it: light after light, and of one light the lightest first, so that
     /// the darkest is what stays.
     Shade(Encoding),
+    /// Components of one light, in the papers' shade k and in any order, and the tiles they are in.
+    Components(&'a mut TileGrid),
 }
 
 /// The plane that shadows fall on.
@@ -112,7 +114,7 @@ impl PartBuilder {
                 self.of_light.extend(shadow.parts());
             }
         }
-        if let Drawn::Shade(_) = drawn {
+        if !matches!(drawn, Drawn::Visibility(_)) {
             // White is the papers' unshaded ground.
             self.of_light.retain(|part| part.shade < 1.0);
             self.of_light.sort_unstable_by(|a, b| b.shade.total_cmp(&a.shade));
@@ -132,6 +134,10 @@ impl PartBuilder {
                     0.0
                 }
                 Drawn::Shade(encoding) => grey(part.shade, *encoding),
+                Drawn::Components(tiles) => {
+                    tiles.touch(polygon);
+                    part.shade as f32
+                }
             };
             let first = self.texels.len() as u32;
             self.texels.extend(texels(&placed, grey));
@@ -194,12 +200,15 @@ fn texels(part: &PlacedPart<DVec3>, grey: f32) -> [Vec4; 4] {
     }
 }
 
+/// The linear value of a displayed one: IEC 61966-2-1. The twin of that in `soft_paint.frag.glsl`.
+fn linear_grey(k: f64) -> f64 {
+    if k <= 0.04045 { k / 12.92 } else { ((k + 0.055) / 1.055).powf(2.4) }
+}
+
 /// The value of a pixel that is displayed as the grey 255 k.
 fn grey(k: f64, encoding: Encoding) -> f32 {
     match encoding {
-        // Displayed by the sRGB curve (IEC 61966-2-1).
-        Encoding::Linear if k <= 0.04045 => (k / 12.92) as f32,
-        Encoding::Linear => ((k + 0.055) / 1.055).powf(2.4) as f32,
+        Encoding::Linear => linear_grey(k) as f32,
         Encoding::Gamma(_) => k as f32,
     }
 }

@@ -119,7 +119,7 @@ mod tests {
                     FigureName::Resolution => place.size.width as usize,
                 };
                 assert_eq!(varied as f64, place.at, "{}", place.scene);
-                let analytic = Technique::Gl(antumbra::Technique::default());
+                let analytic = Technique::from(antumbra::Technique::default());
                 assert_eq!(analytic.objection(&scene, 0.0), None, "{} is drawn", place.scene);
             }
         }
