@@ -117,8 +117,8 @@ fn shades_worked_by_hand() {
                 found[values[0] as usize] += 1;
                 let k = 1.0 - f64::from(values[0]) / 16.0;
                 let expected = 255.0 * if decode { srgb_decoded(k) } else { k };
-                for channel in 0..3 {
-                    let now = f64::from(picture[i][channel]);
+                for channel in &picture[i][..3] {
+                    let now = f64::from(*channel);
                     if values[0] == 0 {
                         assert_eq!(picture[i], was, "untouched");
                     } else {
@@ -178,8 +178,8 @@ fn penumbrae_add_up_and_later_lights_cover_earlier_ones() {
                 };
                 painted += 1;
                 shades.insert((k * 1e6) as u32);
-                for channel in 0..3 {
-                    let (now, expected) = (f64::from(picture[i][channel]), 255.0 * k);
+                for channel in &picture[i][..3] {
+                    let (now, expected) = (f64::from(*channel), 255.0 * k);
                     assert!(
                         (now - expected).abs() <= 0.5 + 0.13,
                         "{count}: {now}, not {expected}, pixel {i}"
@@ -265,7 +265,7 @@ fn painting_collections_leaves_the_state_and_allocates_nothing() {
         let before = live(&gl.gl);
         let mut renderer: Renderer = crate::composite::renderer(gl, technique);
         if float {
-            let mut draw = |renderer: &mut Renderer| {
+            let draw = |renderer: &mut Renderer| {
                 renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
                 renderer.masks(&frame, |_| ()).expect("the frame is right");
             };

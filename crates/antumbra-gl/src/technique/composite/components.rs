@@ -180,7 +180,7 @@ impl State {
         let mut own = std::mem::take(&mut self.collected);
         // SAFETY: the caller's.
         let result = unsafe {
-            let mut ensure = |slot: &mut Option<Target>, format| {
+            let ensure = |slot: &mut Option<Target>, format| {
                 Target::ensure(slot, gl, format, (width, height), samples)?;
                 slot.as_ref().map(|target| clear(gl, target)).map_or(Ok(()), Ok)
             };
