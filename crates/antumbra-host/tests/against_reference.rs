@@ -70,68 +70,18 @@ fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
     found
 }
 
-/// Cameras and lights in awkward places: a target far away, an eye close to a ball or the floor, in
-/// the floor's plane, lights in the plane of the floor, a view almost along it.
+/// With shapes that `analytic` draws in closed form.
 #[test]
 fn awkward_views_are_classified_right() {
     let Some(context) = common::context(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
-    let cameras = [
-        ("far target", [0.0, 1.5, 3.0], [0.0, -1000.0, -5000.0]),
-        ("near target", [0.0, 1.5, 3.0], [0.0, 1.4998, 2.999]),
-        ("at the ball", [0.0, 0.9, 0.701], [0.0, 0.5, -100.0]),
-        ("at the floor", [0.0, 1e-3, 4.0], [0.0, 0.4, 0.0]),
-        ("in the floor", [0.0, 0.0, 4.0], [0.0, 0.4, 0.0]),
-        ("below the floor", [0.0, -2.0, 4.0], [0.0, 0.0, 0.0]),
-        ("along the floor", [0.0, 0.05, 60.0], [0.0, 0.0, 0.0]),
-    ];
     let mut all = 0;
-    for (name, eye, target) in cameras {
-        for casts in [true, false] {
-            let text = format!(
-                r#"
-                camera = {{ eye = {eye:?}, target = {target:?} }}
-                image = {{ width = 320, height = 180 }}
-                [[light]]
-                name = "above"
-                type = "point"
-                position = [1.5, 4.0, 1.0]
-                intensity = 1.0
-                [[light]]
-                name = "level"
-                type = "point"
-                position = [3.0, 0.0, 2.0]
-                intensity = 1.0
-                [[light]]
-                name = "below"
-                type = "directional"
-                direction = [0.3, 1.0, 0.1]
-                intensity = 1.0
-                [[object]]
-                name = "floor"
-                shape = {{ type = "plane" }}
-                casts_shadow = {casts}
-                [[object]]
-                name = "ball"
-                shape = {{ type = "sphere", radius = 0.7 }}
-                translation = [0.0, 0.9, 0.0]
-                [[object]]
-                name = "cone"
-                shape = {{ type = "cone", radius = 0.5, height = 1.0 }}
-                translation = [-1.2, 0.5, 0.3]
-                [[object]]
-                name = "low"
-                shape = {{ type = "sphere", radius = 0.4 }}
-                translation = [0.3, -0.9, 0.2]
-                "#
-            );
-            let scene = Scene::parse(&text, name.as_ref()).expect("the scene is right");
-            let wrong = compare(&mut stage, &scene, name).wrong;
-            if wrong > 0 {
-                eprintln!("{name}, floor casts: {casts}: {wrong} pixels are wrong");
-            }
-            all += wrong;
+    for (name, scene) in common::awkward::awkward_views(&[], "") {
+        let wrong = compare(&mut stage, &scene, &name).wrong;
+        if wrong > 0 {
+            eprintln!("{name}: {wrong} pixels are wrong");
         }
+        all += wrong;
     }
     assert_eq!(all, 0, "pixels on the wrong side outside the band");
 }

@@ -1,6 +1,8 @@
 //! The oracle's side of the comparisons.
 #![allow(dead_code, reason = "each test program uses a part")]
 
+pub(crate) mod awkward;
+
 use antumbra_host::{Api, HeadlessContext};
 use antumbra_reference::{Sampling, Tracer};
 use antumbra_scene::Scene;
