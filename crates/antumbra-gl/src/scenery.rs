@@ -140,7 +140,7 @@ pub struct Occluder {
     /// The shape, world space.
     pub shape: antumbra_math::Shape,
     /// The number that the host's id texture shows where this occluder is seen: not 0, below
-    /// [`NO_SHADOW`]. Several occluders may share one: they are one solid and do not shadow each
+    /// [`crate::NO_SHADOW`]. Several occluders may share one: they are one solid and do not shadow each
     /// other. 0 for an occluder that the host does not draw, or a host without ids.
     pub id: u32,
 }
