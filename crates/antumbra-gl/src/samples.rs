@@ -51,8 +51,8 @@ impl Soft {
         Self::Samples { count, pattern: Pattern::Spread }
     }
 
-    /// The technique's name for it in tables: `native`, `samples:16`. What a technique cannot do of a scenery if
-    /// areas are drawn in this way; `None` if it can do all of it. Needs no OpenGL.
+    /// What a technique cannot do of a scenery if areas are drawn in this way; `None` if it can do all of it. Needs no
+    /// OpenGL.
     pub fn refusal(&self, technique: &Technique, scenery: &Scenery<'_>) -> Option<Refusal> {
         let mut centers = Vec::new();
         self.refusal_with(technique, scenery, &mut centers)
