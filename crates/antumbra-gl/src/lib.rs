@@ -13,6 +13,7 @@ mod pairs;
 mod proxy;
 mod renderer;
 mod resources;
+mod results;
 mod sampler;
 mod samples;
 mod scenery;
@@ -33,7 +34,8 @@ pub use frame::{Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, Sur
 pub use lights::ShaderLight;
 pub use overlay::Encoding;
 pub use pairs::BATCH_LIGHTS;
-pub use renderer::{MaskBatch, Renderer, Stats};
+pub use renderer::Renderer;
+pub use results::{MaskBatch, Stats};
 pub use samples::{Pattern, Soft, light_points, sample_weight};
 pub use scenery::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery};
 pub use shading::IRRADIANCE_GLSL;

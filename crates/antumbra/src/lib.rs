@@ -13,8 +13,12 @@
 //!    samples.
 //!
 //! What casts: balls, discs, triangles, rectangles, cones and infinite planes ([`math::Shape`]), in
-//! any pose and number. What receives: anything you have drawn. The shadows are hard, antialiased
-//! by the exact area of a pixel on either side of an edge.
+//! any pose and number. What receives: anything you have drawn. Lights are points, spots, suns, and
+//! balls, discs and rectangles ([`Area`]), whose penumbrae are closed forms too, without samples or noise.
+//! Hard edges are antialiased by the exact area of a pixel on either side.
+//!
+//! Other techniques stand beside the closed forms ([`Technique`]): projected shadows, shadow volumes and
+//! shadow maps, which cast from meshes, and the painted shadows of the papers all this grew from.
 //!
 //! # Quick start
 //!
