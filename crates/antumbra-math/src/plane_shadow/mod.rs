@@ -44,6 +44,7 @@ mod angles;
 mod cone;
 mod conic;
 mod disc;
+mod double_cone;
 mod edge;
 mod frame;
 mod outline;

@@ -14,8 +14,6 @@
 //! and the shadow is the section; otherwise it is the conic on the far side and the section on the
 //! side of the light.
 
-use core::f64::consts::PI;
-
 use glam::{DVec2, DVec3};
 
 use super::PlaneShadow;
@@ -50,39 +48,59 @@ pub(super) fn sphere(setting: &Setting, sphere: &Sphere) -> PlaneShadow {
     if center.z + r <= setting.slack(center, r) {
         return PlaneShadow::nothing();
     }
-    let contact = Ring::new(
-        center + to_light * (r * sine / distance),
-        to_light / distance,
-        r * ((1.0 - sine) * (1.0 + sine)).sqrt(),
-    );
+    let contact = contact(center, to_light, r, sine);
     let curve = project(setting, &contact);
     let above = contact.above();
     let mut chains = curve.chains(&above.and(&curve.in_front()));
     if above.is_all() {
         return PlaneShadow::conic_region(curve, &chains);
     }
-    // The section by the plane; empty for a ball above it, which `above` has excluded but for
-    // rounding.
-    let radius = ((r - center.z) * (r + center.z)).max(0.0).sqrt();
-    let towards = to_light.truncate().normalize_or(DVec2::X);
-    let section = |half: f64| {
-        let a = (towards * radius).extend(0.0);
-        let curve = Curve::new(center.with_z(1.0), a, (towards.perp() * radius).extend(0.0));
-        let lit = if half < PI { Angles::around(0.0, half) } else { Angles::all() };
-        (curve, curve.chains(&lit))
-    };
     match above.ends() {
         Some([from, _]) => {
             // The section's part on the side of the light, between the two points where the circle
             // of contact passes through the plane.
-            let offset = (contact.at(from) - center).truncate();
-            let half = offset.dot(towards.perp()).abs().atan2(offset.dot(towards));
-            chains.extend(section(half).1);
+            let section = Section::new(center, to_light, r);
+            chains.extend(section.curve.chains(&Angles::around(0.0, section.angle(contact.at(from)))));
             PlaneShadow::region(&chains)
         }
-        None => {
-            let (curve, chains) = section(PI);
-            PlaneShadow::conic_region(curve, &chains)
-        }
+        None => Section::new(center, to_light, r).whole(),
+    }
+}
+
+/// The circle in which the tangent cone of a ball touches it. `sine` is that of the cone's half-angle.
+pub(super) fn contact(center: DVec3, to_light: DVec3, r: f64, sine: f64) -> Ring {
+    let distance = to_light.length();
+    Ring::new(
+        center + to_light * (r * sine / distance),
+        to_light / distance,
+        r * ((1.0 - sine) * (1.0 + sine)).sqrt(),
+    )
+}
+
+/// A ball's section by the plane, a circle; angle 0 is on the side of the light. A point for a ball off
+/// the plane.
+pub(super) struct Section {
+    center: DVec2,
+    towards: DVec2,
+    pub(super) curve: Curve,
+}
+
+impl Section {
+    pub(super) fn new(center: DVec3, to_light: DVec3, r: f64) -> Self {
+        let radius = ((r - center.z) * (r + center.z)).max(0.0).sqrt();
+        let towards = to_light.truncate().normalize_or(DVec2::X);
+        let a = (towards * radius).extend(0.0);
+        let curve = Curve::new(center.with_z(1.0), a, (towards.perp() * radius).extend(0.0));
+        Self { center: center.truncate(), towards, curve }
+    }
+
+    /// The angle of a point of the circle, from 0 to π.
+    pub(super) fn angle(&self, point: DVec3) -> f64 {
+        let offset = point.truncate() - self.center;
+        offset.dot(self.towards.perp()).abs().atan2(offset.dot(self.towards))
+    }
+
+    pub(super) fn whole(&self) -> PlaneShadow {
+        PlaneShadow::conic_region(self.curve, &self.curve.chains(&Angles::all()))
     }
 }

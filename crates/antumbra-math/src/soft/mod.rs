@@ -21,12 +21,14 @@
 mod interval;
 mod nodes;
 mod occluder;
+mod outline;
 mod patch;
 mod region;
 
 pub use interval::Interval;
 pub use nodes::Nodes;
 pub use occluder::{Hidden, cone_triangle};
+pub use outline::{PenumbraOutline, Zone};
 pub use patch::{Line, Patch, Strips, cap_irradiance};
 pub use region::{Conic, Polygon};
 
