@@ -163,7 +163,7 @@ fn compare_all(light: &str, shapes: &[&str], scenes: u64, technique: Technique) 
         found.largest,
         found.truth_error()
     );
-    assert!(found.pixels > 25 * scenes as usize, "there are penumbrae to look at");
+    assert!(found.pixels > 20 * scenes as usize, "{} pixels of penumbrae to look at", found.pixels);
     Some(found)
 }
 
@@ -179,7 +179,7 @@ fn a_ball_past_a_glowing_ball() {
 fn other_pairs() {
     for light in LIGHTS {
         for shape in ["sphere", "disc", "triangle", "rectangle", "cone"] {
-            let Some(found) = compare_all(light, &[shape], 2 * more(), Technique::default()) else { return };
+            let Some(found) = compare_all(light, &[shape], 3 * more(), Technique::default()) else { return };
             assert!(found.rms() <= 0.004, "{light}, {shape}: rms {}", found.rms());
         }
     }

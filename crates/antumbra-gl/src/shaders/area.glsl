@@ -29,6 +29,7 @@ struct LightPatch {
     vec3 up;
     bool round;
     float reach;  // distance of the light's centre
+    float tangent_2;  // square of the tangents' length to a ball, of the distance to a flat light's centre
     bool faces;   // whether it sends anything to the point
 };
 
@@ -46,14 +47,14 @@ LightPatch sphere_patch(vec3 center, float radius, vec3 point, vec3 normal) {
     vec3 origin = to_light / reach;
     float tangent = radius * inversesqrt(max(outside, 1e-30));
     vec3 right = level_axis(origin, normal);
-    return LightPatch(origin, right * tangent, cross(origin, right) * tangent, true, reach, outside > 0.0);
+    return LightPatch(origin, right * tangent, cross(origin, right) * tangent, true, reach, outside, outside > 0.0);
 }
 
 LightPatch flat_patch(vec3 center, vec3 direction, vec3 half_right, vec3 half_up, bool round, vec3 point) {
     vec3 to_light = center - point;
     float reach = length(to_light);
     float scale = 1.0 / reach;
-    return LightPatch(to_light * scale, half_right * scale, half_up * scale, round, reach,
+    return LightPatch(to_light * scale, half_right * scale, half_up * scale, round, reach, reach * reach,
                       dot(to_light, direction) < 0.0);
 }
 

@@ -93,9 +93,9 @@ impl AreaLight {
 /// occluder: from 0 to 1.
 ///
 /// 0 where no light arrives even without it: behind the receiver's horizon, behind a flat light. 1 inside a glowing
-/// ball. 0 inside a solid. An occluder that crosses the light's own plane (for a ball, the plane through its centre
-/// at right angles to the line of sight) hides with the part before it; a ball is before it if its centre is
-/// nearer than the light's.
+/// ball. 0 inside a solid. A flat occluder that crosses the light's own plane (for a ball, the plane through its centre
+/// at right angles to the line of sight) hides with the part before it; of two balls the one with the shorter tangents
+/// is before the other.
 pub fn pair_visibility<V: Vector>(
     light: &AreaLight,
     occluder: &Shape,

@@ -20,6 +20,8 @@ pub struct Patch<V: Vector> {
     pub round: bool,
     /// Distance of the light's centre, metres: what is farther along a direction, in units of it, does not block.
     pub reach: V::Real,
+    /// The square of the tangents' length to a ball, of `reach` to a flat light: a ball with longer tangents is behind.
+    pub tangent_2: V::Real,
 }
 
 /// A unit vector at right angles to the unit vector `axis`, and to `normal` if the two are not parallel.
@@ -48,7 +50,8 @@ impl<V: Vector> Patch<V> {
         let origin = to_light * (V::Real::ONE / reach);
         let tangent = radius / outside.sqrt();
         let right = level(origin, normal);
-        Some(Self { origin, right: right * tangent, up: origin.cross(right) * tangent, round: true, reach })
+        let up = origin.cross(right) * tangent;
+        Some(Self { origin, right: right * tangent, up, round: true, reach, tangent_2: outside })
     }
 
     /// A disc that shines along the unit vector `direction`; `None` from behind, or in its plane.
@@ -71,7 +74,14 @@ impl<V: Vector> Patch<V> {
         }
         let reach = to_light.length();
         let scale = V::Real::ONE / reach;
-        Some(Self { origin: to_light * scale, right: half[0] * scale, up: half[1] * scale, round, reach })
+        Some(Self {
+            origin: to_light * scale,
+            right: half[0] * scale,
+            up: half[1] * scale,
+            round,
+            reach,
+            tangent_2: reach * reach,
+        })
     }
 
     /// A linear function of direction, over the patch.

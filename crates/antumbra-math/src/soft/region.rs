@@ -16,13 +16,15 @@ pub struct Conic<R: Real> {
 }
 
 impl<R: Real> Conic<R> {
-    /// A ball, its centre as the point sees it. A ball whose centre is beyond the light's hides nothing.
+    /// A ball, its centre as the point sees it. A ball behind the light's, by the radical plane of the two,
+    /// hides nothing.
     pub fn of_sphere<V: Vector<Real = R>>(center: V, radius: R, patch: &Patch<V>) -> Self {
         let k = [patch.right, patch.origin, patch.up].map(|w| center.cross(w));
         let w = [patch.right, patch.origin, patch.up];
         let square = radius * radius;
         let form = |i: usize, j: usize| k[i].dot(k[j]) - square * w[i].dot(w[j]);
-        let nearer = patch.reach * patch.reach - center.dot(center);
+        // On a common tangent plane the ball with the shorter tangent is in front.
+        let nearer = patch.tangent_2 - (center.dot(center) - square);
         Self {
             form: [form(0, 0), form(0, 1), form(0, 2), form(1, 1), form(1, 2), form(2, 2)],
             ahead: patch.line(center),

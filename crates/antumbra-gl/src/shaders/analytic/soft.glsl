@@ -32,7 +32,7 @@ Conic sphere_conic(vec3 center, float radius, LightPatch p) {
            - square * vec3(dot(p.right, p.right), dot(p.right, p.origin), dot(p.right, p.up));
     vec3 one = vec3(dot(k1, k1), dot(k1, ky), dot(ky, ky))
              - square * vec3(dot(p.origin, p.origin), dot(p.origin, p.up), dot(p.up, p.up));
-    float nearer = p.reach * p.reach - dot(center, center);
+    float nearer = p.tangent_2 - (dot(center, center) - square);
     return Conic(x, one, patch_line(p, center), vec3(nearer, 0.0, 0.0));
 }
 
