@@ -96,6 +96,29 @@ impl Technique {
         }
     }
 
+    /// How many points stand for a light with an area; `None` where it is drawn as the area that it is.
+    pub(crate) fn components(&self) -> Option<u32> {
+        match self {
+            Self::Gl(_, Soft::Samples { count, .. }) => Some(*count),
+            Self::Gl(antumbra::Technique::Composite(options), Soft::Native) => Some(options.components),
+            _ => None,
+        }
+    }
+
+    /// What it is called whatever the number of such points.
+    pub(crate) fn family(&self) -> String {
+        match *self {
+            Self::Gl(antumbra::Technique::Composite(mut options), Soft::Native) => {
+                options.components = antumbra::technique::composite::Options::default().components;
+                antumbra::Technique::Composite(options).to_string()
+            }
+            Self::Gl(technique, soft @ Soft::Samples { count, .. }) => {
+                format!("{technique}+{}", soft.to_string().replacen(&count.to_string(), "N", 1))
+            }
+            technique => technique.to_string(),
+        }
+    }
+
     /// Its name, without options.
     pub(crate) fn name(&self) -> &'static str {
         match self {

@@ -26,13 +26,15 @@ fn every_figure() {
     let rows = report["rows"].as_array().expect("a list");
     let refused = report["refused"].as_array().expect("a list");
     let gl = antumbra::Technique::NAMES.len();
-    // 5 primitives with the ray tracer beside, 7 numbers of lights and occluders, 4 of pixels.
-    assert_eq!(rows.len() + refused.len(), 5 * (gl + 1) + 18 * gl, "each technique on each scene");
+    // 5 primitives with the ray tracer beside, 7 numbers of lights and occluders, 4 of pixels; 4 primitives under an
+    // area light with two techniques, and two more with 6 numbers of points.
+    assert_eq!(rows.len() + refused.len(), 5 * (gl + 1) + 18 * gl + 4 * 14, "each technique on each scene");
     for row in rows {
         let number = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key} is a number in {row}"));
         assert!(0.0 < number("median_ms") && number("median_ms") <= number("p95_ms"), "{row}");
         assert!(number("plain_ms") > 0.0, "{row}");
-        assert!(row["soft"].is_null(), "all lights are hard: {row}");
+        assert_eq!(row["soft"].is_null(), row["figure"] != "soft", "the other lights are hard: {row}");
+        assert!(row["figure"] == "soft" || row["penumbra_rmse"].is_null(), "no penumbra: {row}");
         let timer = row["timer"].as_str().expect("a clock");
         assert_eq!(timer == "wall time", row["technique"] == "raytraced", "the clock is named: {row}");
         assert_eq!(row["frames"], 2, "as many frames as asked for: {row}");
@@ -52,16 +54,17 @@ fn every_figure() {
     assert_eq!(
         csv.lines().next(),
         Some(
-            "figure,technique,soft,scene,lights,occluders,width,height,median_ms,p95_ms,plain_ms,timer,frames"
+            "figure,technique,soft,components,scene,lights,occluders,width,height,median_ms,p95_ms,plain_ms,timer,\
+             frames,penumbra_rmse"
         ),
         "the head"
     );
-    for figure in ["primitives", "lights", "occluders", "resolution"] {
+    for figure in ["primitives", "lights", "occluders", "resolution", "soft", "soft-error"] {
         let chart = fs::read_to_string(place.file(&format!("out/{figure}.svg"))).expect("written");
         assert!(chart.starts_with("<svg") && chart.contains("analytic"), "{figure} is a chart");
     }
     let scenes: BTreeSet<&str> = rows.iter().filter_map(|row| row["scene"].as_str()).collect();
-    assert_eq!(scenes.len(), 23, "every scene is measured");
+    assert_eq!(scenes.len(), 27, "every scene is measured");
     for scene in scenes {
         let path = place.file(&format!("out/scenes/{scene}.toml"));
         let scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
@@ -69,8 +72,58 @@ fn every_figure() {
     }
     let files: Vec<&str> =
         report["files"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();
-    assert_eq!(files.len(), 2 + 4 + 23, "table, rows, charts and scenes: {files:?}");
+    assert_eq!(files.len(), 2 + 6 + 27, "table, rows, charts and scenes: {files:?}");
     assert!(files.iter().all(|file| place.file(file).is_file()), "all are there: {files:?}");
+}
+
+/// What Fig. 7 of the 2017 paper on soft shadows varies, and what each way is worth.
+#[test]
+fn soft_shadows_have_an_error() {
+    let place = Place::new();
+    if !opengl(&place) {
+        return;
+    }
+    let output =
+        place.run(["bench", "--figure", "soft", "-o", "out", "--frames", "1", "--size", "96x96", "--json"]);
+    assert_success(&output);
+    let report = json(&output);
+    let rows = report["rows"].as_array().expect("a list");
+    assert_eq!(rows.len(), 4 * 14, "no technique refuses: {}", report["refused"]);
+    for scene in ["soft-circle", "soft-triangle", "soft-sphere", "soft-cone"] {
+        let of = |technique: &str| {
+            let row = rows.iter().find(|row| row["scene"] == scene && row["technique"] == technique);
+            row.unwrap_or_else(|| panic!("{technique} is measured on {scene}"))
+        };
+        let error = |technique: &str| of(technique)["penumbra_rmse"].as_f64().expect("there is a penumbra");
+        for (count, sampled, painted) in [
+            (1, "analytic+samples:1", "composite:components=1"),
+            (3, "analytic+samples:3", "composite"),
+            (64, "analytic+samples:64", "composite:components=64"),
+        ] {
+            assert_eq!(of(sampled)["components"], count, "points of the light");
+            assert_eq!(of(painted)["components"], count, "points of the light");
+        }
+        assert!(of("analytic")["components"].is_null(), "the light as it is");
+        // The bound of the closed forms against the ray tracer, and what black and white alone leave of a smooth edge.
+        assert!(error("analytic") < 0.004, "{scene}: {}", error("analytic"));
+        let (one, many) = (error("analytic+samples:1"), error("analytic+samples:64"));
+        assert!(one > 0.15 && many < 0.25 * one, "{scene}: more points come nearer: {one} to {many}");
+        assert!(error("composite:components=1") > 0.15, "{scene}: one component casts a hard shadow");
+    }
+    let csv = fs::read_to_string(place.file("out/bench.csv")).expect("written");
+    let mut table = csv::Reader::from_reader(csv.as_bytes());
+    let last = table.headers().expect("a head").iter().position(|head| head == "penumbra_rmse");
+    for record in table.records() {
+        let record = record.expect("a row");
+        let cell = last.and_then(|at| record.get(at)).expect("a column");
+        assert!(cell.parse::<f64>().is_ok_and(|error| error > 0.0), "a number in each row: {cell}");
+    }
+    for chart in ["soft", "soft-error"] {
+        let chart = fs::read_to_string(place.file(&format!("out/{chart}.svg"))).expect("written");
+        for text in ["circle", "cone", "analytic+samples:N", "map:filter=pcss"] {
+            assert!(chart.contains(text), "{text} is in the chart");
+        }
+    }
 }
 
 #[test]
@@ -113,7 +166,7 @@ fn refusals() {
     place.write("full/scenes", "");
     let before = place.entries();
     let cases: &[(&[&str], &str)] = &[
-        (&["--figure", "shadows"], "primitives, lights, occluders, resolution"),
+        (&["--figure", "shadows"], "primitives, lights, occluders, resolution, soft"),
         (&["--frames", "0"], "from 1 to 1000"),
         (&["--frames", "1001"], "from 1 to 1000"),
         (&["--size", "0x4"], "at least 1x1"),

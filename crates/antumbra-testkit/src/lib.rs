@@ -8,6 +8,7 @@
 
 pub mod flip;
 pub mod metrics;
+pub mod penumbra;
 pub mod random_mesh_scene;
 pub mod random_scene;
 pub mod truth;

@@ -81,8 +81,8 @@ pub(crate) enum Command {
         antumbra bench\n  \
         antumbra bench --figure lights --frames 60 -o measured\n  \
         antumbra bench --figure primitives --techniques analytic,raytraced --size 256x256 --json\n\n\
-        Writes DIR/bench.json, DIR/bench.csv, a chart DIR/FIGURE.svg for each figure, and every scene measured as\n\
-        DIR/scenes/*.toml.")]
+        Writes DIR/bench.json, DIR/bench.csv, a chart DIR/FIGURE.svg for each figure (of `soft` also\n\
+        DIR/soft-error.svg: error inside the penumbra over time), and every scene measured as DIR/scenes/*.toml.")]
     Bench(BenchArgs),
     /// Say which OpenGL driver there is and what it can do
     #[command(after_help = "Examples:\n  \

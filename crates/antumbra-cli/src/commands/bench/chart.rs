@@ -1,5 +1,7 @@
 //! Charts as SVG: milliseconds a frame, on logarithmic axes.
 
+mod soft;
+
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::Range;
@@ -9,7 +11,7 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::figures::{Axis, Figure};
+use super::figures::{Axis, Figure, Shown};
 use super::report::{Report, Row};
 
 const SIZE: (u32, u32) = (960, 560);
@@ -78,18 +80,21 @@ struct Series<'a> {
 ///
 /// # Errors
 /// What the drawing library says.
-pub(super) fn svg(figure: &Figure, report: &Report) -> io::Result<String> {
+pub(super) fn svg(figure: &Figure, shown: Shown, report: &Report) -> io::Result<String> {
     let mut text = String::new();
-    draw(figure, report, &SVGBackend::with_string(&mut text, SIZE).into_drawing_area())
-        .map_err(|error| io::Error::other(error.to_string()))?;
+    let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+    let drawn = match shown {
+        Shown::TimeOverAxis => draw(figure, report, &root),
+        Shown::TimeOverComponents | Shown::ErrorOverTime => soft::draw(figure, shown, report, &root),
+    };
+    drop(root);
+    drawn.map_err(|error| io::Error::other(error.to_string()))?;
     Ok(text)
 }
 
 fn draw(figure: &Figure, report: &Report, root: &Area) -> Outcome {
-    root.fill(&WHITE)?;
     let series = series(figure, report);
-    root.draw(&Text::new(figure.title.to_owned(), (24, 18), font(24, INK)))?;
-    root.draw(&Text::new(subtitle(figure, report), (24, 50), font(15, FAINT)))?;
+    head(figure.title, figure, report, root)?;
     let (_, below) = root.split_vertically(78);
     let (left, right) = below.split_horizontally(SIZE.0 - KEY);
 
@@ -140,8 +145,20 @@ fn draw(figure: &Figure, report: &Report, root: &Area) -> Outcome {
         Axis::Kinds => dots(&mut chart, &series)?,
         Axis::Number(_) => lines(&mut chart, &series)?,
     }
-    key(&right, figure.axis, &series)?;
+    let notes: &[&str] = match figure.axis {
+        Axis::Kinds => &["stems begin at the same", "frame without shadows;", "whiskers: 95 of 100 frames"],
+        Axis::Number(_) => &["whiskers: 95 of 100 frames", "dashed: the same frame", "without shadows"],
+    };
+    key(&right, &series, notes)?;
     Ok(root.present()?)
+}
+
+/// What a chart is of.
+fn head(title: &str, figure: &Figure, report: &Report, root: &Area) -> Outcome {
+    root.fill(&WHITE)?;
+    root.draw(&Text::new(title.to_owned(), (24, 18), font(24, INK)))?;
+    root.draw(&Text::new(subtitle(figure, report), (24, 50), font(15, FAINT)))?;
+    Ok(())
 }
 
 /// A line for each technique, from median to median, each with a whisker to its 95th percentile; the frames without
@@ -192,7 +209,10 @@ fn dots(chart: &mut Chart, series: &[Series]) -> Outcome {
 fn marks(chart: &mut Chart, style: usize, x: f64, row: &Row) -> Outcome {
     let whisker = [(x, row.median_ms.log10()), (x, row.p95_ms.log10())];
     chart.draw_series(LineSeries::new(whisker, color(style).stroke_width(1)))?;
-    let at = (x, row.median_ms.log10());
+    mark(chart, style, (x, row.median_ms.log10()))
+}
+
+fn mark(chart: &mut Chart, style: usize, at: (f64, f64)) -> Outcome {
     let filled = color(style).filled();
     match style % 3 {
         0 => chart.draw_series([Circle::new(at, 5, filled)])?,
@@ -206,7 +226,7 @@ fn marks(chart: &mut Chart, style: usize, x: f64, row: &Row) -> Outcome {
 }
 
 /// What the marks mean, the slowest technique first, as the lines end.
-fn key(area: &Area, axis: Axis, series: &[Series]) -> Outcome {
+fn key(area: &Area, series: &[Series], notes: &[&str]) -> Outcome {
     let end = |series: &Series| series.points.last().map_or(0.0, |(_, row)| row.median_ms);
     let mut order: Vec<&Series> = series.iter().collect();
     order.sort_by(|a, b| end(b).total_cmp(&end(a)));
@@ -223,10 +243,6 @@ fn key(area: &Area, axis: Axis, series: &[Series]) -> Outcome {
         y += 26;
     }
     y += 8;
-    let notes: &[&str] = match axis {
-        Axis::Kinds => &["stems begin at the same", "frame without shadows;", "whiskers: 95 of 100 frames"],
-        Axis::Number(_) => &["whiskers: 95 of 100 frames", "dashed: the same frame", "without shadows"],
-    };
     for note in notes {
         area.draw(&Text::new(*note, (14, y), middle(13, FAINT)))?;
         y += 19;
@@ -321,12 +337,16 @@ fn shortened(text: &str, most: usize) -> String {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::super::figures::FigureName;
     use super::*;
     use crate::args::Size;
 
-    fn report(figure: &Figure, techniques: &[&str], time: impl Fn(usize, usize) -> [f64; 3]) -> Report {
+    pub(super) fn report(
+        figure: &Figure,
+        techniques: &[&str],
+        time: impl Fn(usize, usize) -> [f64; 3],
+    ) -> Report {
         let mut report = Report::new(None);
         for (p, place) in figure.places.iter().enumerate() {
             for (t, technique) in techniques.iter().enumerate() {
@@ -335,6 +355,8 @@ mod tests {
                     figure: figure.name.text(),
                     technique: (*technique).to_owned(),
                     soft: None,
+                    components: None,
+                    family: (*technique).to_owned(),
                     scene: place.scene.clone(),
                     lights: 1,
                     occluders: 1,
@@ -345,6 +367,7 @@ mod tests {
                     plain_ms,
                     timer: "clock",
                     frames: 3,
+                    penumbra_rmse: None,
                 });
             }
         }
@@ -371,7 +394,7 @@ mod tests {
                 let plain = 2.0 + p as f64;
                 [plain, plain * (1.2 + t as f64 * 0.6), plain * (1.4 + t as f64 * 0.7)]
             });
-            let svg = svg(&figure, &report).expect("it is drawn");
+            let svg = svg(&figure, Shown::TimeOverAxis, &report).expect("it is drawn");
             assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "an SVG");
             for label in figure.places.iter().map(|place| place.label.as_str()).chain([
                 "map:size=2048:filter=pcf",
@@ -395,11 +418,13 @@ mod tests {
         for shift in 0..odd.len() {
             let report =
                 report(&figure, &["a", "b"], |p, t| [0, 1, 2].map(|i| odd[(p + t + i * shift) % odd.len()]));
-            let svg = svg(&figure, &report).expect("it is drawn");
+            let svg = svg(&figure, Shown::TimeOverAxis, &report).expect("it is drawn");
             assert!(svg.contains("</svg>") && !svg.contains("NaN"), "{svg}");
         }
         assert!(
-            svg(&figure, &Report::new(None)).expect("it is drawn").contains("nothing was measured"),
+            svg(&figure, Shown::TimeOverAxis, &Report::new(None))
+                .expect("it is drawn")
+                .contains("nothing was measured"),
             "said"
         );
     }

@@ -2,12 +2,14 @@
 
 mod chart;
 mod figures;
+mod penumbra;
 mod report;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use antumbra_scene::{LightKind, Scene};
+use antumbra_host::Stage;
+use antumbra_scene::Scene;
 use clap::ValueEnum;
 
 use crate::args::BenchArgs;
@@ -42,11 +44,18 @@ pub(crate) fn run(arguments: &BenchArgs) -> Result<(), CliError> {
     let (mut done, all) = (0, rounds * places as u64);
     for (figure, techniques) in figures.iter().zip(&contests) {
         let mut contest = Contest::new(context.as_ref(), techniques)?;
+        let mut stage = match &context {
+            Some(context) if figure.has_error() => Some(Stage::new(context.gl()).map_err(CliError::OpenGl)?),
+            _ => None,
+        };
         for place in &figure.places {
             progress.message(&place.scene);
             let mut told = |round: u32| progress.set(done + u64::from(round), all);
             measure(&mut contest, figure, place, techniques, arguments.frames, &mut told, &mut report)?;
             done += rounds;
+            if let Some(stage) = &mut stage {
+                penumbra::measure(stage, place, techniques, &mut report)?;
+            }
         }
     }
     drop(progress);
@@ -60,8 +69,11 @@ pub(crate) fn run(arguments: &BenchArgs) -> Result<(), CliError> {
 
 /// The techniques of a figure, each once.
 fn techniques(arguments: &BenchArgs, figure: &Figure) -> Vec<Technique> {
-    let asked =
-        if arguments.techniques.is_empty() { figure.techniques() } else { arguments.techniques.clone() };
+    let asked = if arguments.techniques.is_empty() {
+        figure.techniques.clone()
+    } else {
+        arguments.techniques.clone()
+    };
     let mut techniques = Vec::new();
     for technique in asked {
         if !techniques.contains(&technique) {
@@ -87,19 +99,14 @@ fn measure(
     let takes_part: Vec<bool> = objections.iter().map(Option::is_none).collect();
     let timings = contest.measure((&scene, 0.0), place.size, frames, &takes_part, told)?;
     for ((technique, timing), objection) in techniques.iter().zip(timings).zip(objections) {
-        let soft = scene.lights.iter().any(has_area).then(|| technique.soft());
-        let technique = technique.to_string();
         if let Some(timing) = timing {
-            report.rows.push(Row::new(figure.name, (technique, soft), place, &scene, timing));
+            report.rows.push(Row::new(figure.name, technique, place, &scene, timing));
         } else if let Some(reason) = objection {
+            let technique = technique.to_string();
             report.refused.push(Refusal { technique, scene: place.scene.clone(), reason });
         }
     }
     Ok(())
-}
-
-fn has_area(light: &antumbra_scene::Light) -> bool {
-    !matches!(light.kind, LightKind::Point | LightKind::Directional { .. } | LightKind::Spot { .. })
 }
 
 /// The files that are written.
@@ -118,12 +125,11 @@ impl Plan {
     fn new(arguments: &BenchArgs, figures: &[Figure]) -> Result<Self, CliError> {
         let directory = arguments.output.clone();
         let scenes = directory.join("scenes");
-        let chart = |figure: &Figure| directory.join(format!("{}.svg", figure.name.text()));
         let places = figures.iter().flat_map(|figure| &figure.places);
         let plan = Self {
             json: directory.join("bench.json"),
             csv: directory.join("bench.csv"),
-            charts: figures.iter().map(chart).collect(),
+            charts: figures.iter().flat_map(Figure::charts).map(|(_, file)| directory.join(file)).collect(),
             places: places.map(|place| scenes.join(format!("{}.toml", place.scene))).collect(),
             directory,
             scenes,
@@ -157,8 +163,11 @@ impl Plan {
             report.rows.iter().try_for_each(|row| table.serialize(row)).map_err(io::Error::other)?;
             table.flush()
         })?;
-        for (path, figure) in self.charts.iter().zip(figures) {
-            staged.file(path, |to| to.write_all(chart::svg(figure, report)?.as_bytes()))?;
+        let charts = figures
+            .iter()
+            .flat_map(|figure| figure.charts().into_iter().map(move |(shown, _)| (figure, shown)));
+        for (path, (figure, shown)) in self.charts.iter().zip(charts) {
+            staged.file(path, |to| to.write_all(chart::svg(figure, shown, report)?.as_bytes()))?;
         }
         let places = figures.iter().flat_map(|figure| &figure.places);
         for (path, place) in self.places.iter().zip(places) {

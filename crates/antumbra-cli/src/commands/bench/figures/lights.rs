@@ -1,7 +1,7 @@
 //! How techniques scale with the number of lights.
 
 use super::text::SceneText;
-use super::{Axis, Figure, FigureName, Place};
+use super::{Axis, Figure, FigureName, Place, with_opengl};
 use crate::args::Size;
 
 const SPHERES: u32 = 8;
@@ -27,6 +27,6 @@ pub(super) fn figure(size: Size) -> Figure {
         title: "8 spheres over a plane, more and more lights",
         axis: Axis::Number("point lights"),
         places: [1, 2, 4, 8, 16, 32, 64].map(place).into(),
-        traced: false,
+        techniques: with_opengl(),
     }
 }

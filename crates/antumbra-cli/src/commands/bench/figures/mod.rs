@@ -4,6 +4,7 @@ mod lights;
 mod occluders;
 mod primitives;
 mod resolution;
+mod soft;
 mod text;
 
 use clap::ValueEnum;
@@ -22,6 +23,8 @@ pub(crate) enum FigureName {
     Occluders,
     /// 256 to 2048 pixels across
     Resolution,
+    /// Soft shadows of a ball light made of 1 to 64 points, and without: Fig. 7 of the 2017 paper on soft shadows
+    Soft,
 }
 
 /// A figure of the benchmark.
@@ -34,8 +37,8 @@ pub(super) struct Figure {
     pub(super) axis: Axis,
     /// The scenes, in the order of the axis.
     pub(super) places: Vec<Place>,
-    /// Whether the ray tracer takes part where no techniques are named: it takes seconds for many lights.
-    pub(super) traced: bool,
+    /// What takes part where no techniques are named.
+    pub(super) techniques: Vec<Technique>,
 }
 
 /// What a figure varies.
@@ -45,6 +48,17 @@ pub(super) enum Axis {
     Kinds,
     /// A number, on a logarithmic axis, and what it counts.
     Number(&'static str),
+}
+
+/// What a chart shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// Time over the figure's axis.
+    TimeOverAxis,
+    /// Time over the number of points that stand for a light, for each place.
+    TimeOverComponents,
+    /// Error inside the penumbra over time, for each place.
+    ErrorOverTime,
 }
 
 /// One place on the axis of a figure.
@@ -70,6 +84,7 @@ impl FigureName {
             Self::Lights => "lights",
             Self::Occluders => "occluders",
             Self::Resolution => "resolution",
+            Self::Soft => "soft",
         }
     }
 
@@ -80,16 +95,33 @@ impl FigureName {
             Self::Lights => lights::figure(size),
             Self::Occluders => occluders::figure(size),
             Self::Resolution => resolution::figure(size),
+            Self::Soft => soft::figure(size),
         }
     }
 }
 
 impl Figure {
-    /// The techniques that take part where none are named.
-    pub(super) fn techniques(&self) -> Vec<Technique> {
-        let all = Technique::all().into_iter();
-        all.filter(|technique| self.traced || *technique != Technique::Raytraced).collect()
+    /// Its charts: what each shows, and the name of its file.
+    pub(super) fn charts(&self) -> Vec<(Shown, String)> {
+        let name = self.name.text();
+        let own = format!("{name}.svg");
+        match self.name {
+            FigureName::Soft => {
+                vec![(Shown::TimeOverComponents, own), (Shown::ErrorOverTime, format!("{name}-error.svg"))]
+            }
+            _ => vec![(Shown::TimeOverAxis, own)],
+        }
     }
+
+    /// Whether the error inside the penumbra is measured too.
+    pub(super) fn has_error(&self) -> bool {
+        self.charts().iter().any(|(shown, _)| *shown == Shown::ErrorOverTime)
+    }
+}
+
+/// All techniques but the ray tracer: it takes seconds for many lights.
+fn with_opengl() -> Vec<Technique> {
+    Technique::all().into_iter().filter(|technique| *technique != Technique::Raytraced).collect()
 }
 
 #[cfg(test)]
@@ -113,7 +145,7 @@ mod tests {
                     Scene::parse(&place.toml, place.scene.as_ref()).unwrap_or_else(|error| panic!("{error}"));
                 let occluders = scene.objects.iter().filter(|object| object.casts_shadow).count();
                 let varied = match name {
-                    FigureName::Primitives => continue,
+                    FigureName::Primitives | FigureName::Soft => continue,
                     FigureName::Lights => scene.lights.len(),
                     FigureName::Occluders => occluders,
                     FigureName::Resolution => place.size.width as usize,

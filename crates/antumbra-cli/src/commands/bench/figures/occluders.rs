@@ -1,7 +1,7 @@
 //! How techniques scale with the number of things that cast shadows.
 
 use super::text::SceneText;
-use super::{Axis, Figure, FigureName, Place};
+use super::{Axis, Figure, FigureName, Place, with_opengl};
 use crate::args::Size;
 
 /// 1 to 1000 spheres over a plane, under one point light.
@@ -25,6 +25,6 @@ pub(super) fn figure(size: Size) -> Figure {
         title: "One light, more and more spheres over a plane",
         axis: Axis::Number("spheres"),
         places: [1, 3, 10, 30, 100, 300, 1000].map(place).into(),
-        traced: false,
+        techniques: with_opengl(),
     }
 }

@@ -5,9 +5,10 @@
 use super::text::SceneText;
 use super::{Axis, Figure, FigureName, Place};
 use crate::args::Size;
+use crate::technique::Technique;
 
 /// What is drawn: its name, and shape and pose in the scene file.
-const KINDS: [(&str, &str); 5] = [
+pub(super) const KINDS: [(&str, &str); 5] = [
     ("circle", "shape = { type = \"disc\", radius = 1.0 }\ntranslation = [0.0, 1.4, 0.0]"),
     (
         "triangle",
@@ -51,6 +52,6 @@ pub(super) fn figure(size: Size) -> Figure {
         title: "One object over a plane, one light",
         axis: Axis::Kinds,
         places: KINDS.iter().enumerate().map(place).collect(),
-        traced: true,
+        techniques: Technique::all(),
     }
 }

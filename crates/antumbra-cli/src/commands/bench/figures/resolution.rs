@@ -1,7 +1,7 @@
 //! How techniques scale with the number of pixels.
 
 use super::text::SceneText;
-use super::{Axis, Figure, FigureName, Place};
+use super::{Axis, Figure, FigureName, Place, with_opengl};
 use crate::args::{MAX_SIDE, Size};
 
 const SPHERES: u32 = 8;
@@ -32,6 +32,6 @@ pub(super) fn figure(size: Size) -> Figure {
         title: "8 spheres over a plane, 4 lights, more and more pixels",
         axis: Axis::Number("pixels across"),
         places: [256, 512, 1024, 2048].map(place).into(),
-        traced: false,
+        techniques: with_opengl(),
     }
 }

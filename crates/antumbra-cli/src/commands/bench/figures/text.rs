@@ -25,6 +25,14 @@ impl SceneText {
         ));
     }
 
+    /// A ball that shines.
+    pub(super) fn ball_light(&mut self, name: impl Display, position: [f64; 3], radius: f64, intensity: f64) {
+        self.push(format_args!(
+            "\n[[light]]\nname = \"{name}\"\ntype = \"sphere\"\nposition = {position:?}\nradius = {radius:?}\n\
+             intensity = {intensity:?}\n"
+        ));
+    }
+
     /// The floor that the shadows fall on; it casts none.
     pub(super) fn floor(&mut self) {
         self.push(
