@@ -11,7 +11,8 @@ Writes  next to them NAME.exr, linear radiance in half floats (relative error up
         of each picture's Monte Carlo noise, absolute, from two renderings of half the samples each, and star.obj, the mesh
         that the scene `mesh` uses.
 
-The test `mitsuba` of antumbra-reference compares; it needs none of this. How the two worlds are mapped:
+The test `mitsuba` of antumbra-reference compares, and `soft_pictures` of antumbra-host the scenes `soft-*`; they need none of
+this. How the two worlds are mapped:
 
 - point, spot: intensity in candela is Mitsuba's radiant intensity; directional: lux is its irradiance; sphere, disc,
   rectangle: radiance I / (pi R^2) or I / (width height), normals of disc and rectangle turned to where they shine.

@@ -198,3 +198,19 @@ fn mesh() {
     // Penumbras from sharp teeth, a pixel wide and less.
     hold("mesh", 256, 2.0 * SOFT, EDGE);
 }
+
+#[test]
+fn soft_sphere() {
+    hold("soft-sphere", 256, SOFT, EDGE);
+}
+
+#[test]
+fn soft_disc() {
+    // Nothing in this picture is bright: noise is a larger share of it, and takes more samples.
+    hold("soft-disc", 1024, SOFT, EDGE);
+}
+
+#[test]
+fn soft_rectangle() {
+    hold("soft-rectangle", 256, SOFT, EDGE);
+}
