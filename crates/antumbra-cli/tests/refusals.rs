@@ -38,6 +38,10 @@ fn wrong_command_lines() {
         (&["render", "scene.toml", "-o", "a.png", "--shade", "pretty"], "pretty"),
         (&["render", "scene.toml", "-o", "a.png", "--shade", "paper"], "no option `shade=paper`"),
         (
+            &["render", "scene.toml", "-o", "a.png", "--technique", "map", "--quality", "exact"],
+            "no option `quality=exact`",
+        ),
+        (
             &["render", "scene.toml", "-o", "a.png", "--shade", "physical", "--backend", "cpu"],
             "has no options",
         ),

@@ -119,6 +119,25 @@ impl Shade {
     }
 }
 
+/// How the shadows of several occluders under one light with an area are put together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Quality {
+    /// As the product of what each leaves
+    Fast,
+    /// As the union of what they hide
+    Exact,
+}
+
+impl Quality {
+    /// The value of the option `quality` of a technique.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Exact => "exact",
+        }
+    }
+}
+
 /// Arguments of `antumbra demo`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct DemoArgs {
@@ -177,6 +196,10 @@ pub(crate) struct RenderArgs {
     /// light's contribution
     #[arg(long, value_enum, value_name = "paper|physical", hide_possible_values = true)]
     pub(crate) shade: Option<Shade>,
+    /// How several occluders under one light with an area are put together, for the techniques with an option `quality`:
+    /// by the product of what each leaves, or by the union of what they hide, at several times the cost
+    #[arg(long, value_enum, value_name = "fast|exact", hide_possible_values = true)]
+    pub(crate) quality: Option<Quality>,
     /// How lights with an area are drawn: in the technique's own way, or as N hard lights whose shadows are averaged
     /// (N:row for a row of them)
     #[arg(long, value_name = "native|samples:N")]

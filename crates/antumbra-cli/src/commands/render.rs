@@ -1,6 +1,6 @@
 //! `antumbra render`: one scene, one picture.
 
-use crate::args::{Backend, RenderArgs};
+use crate::args::{Backend, Quality, RenderArgs, Shade};
 use crate::commands::{Job, trace};
 use crate::draw::OpenGl;
 use crate::error::CliError;
@@ -47,12 +47,16 @@ fn technique(arguments: &RenderArgs) -> Result<Technique, CliError> {
         }
         None => technique,
     };
-    match arguments.shade {
-        Some(shade) => technique
-            .with_option("shade", shade.name())
-            .map_err(|what| CliError::Usage(format!("--shade {}: {what}", shade.name()))),
-        None => Ok(technique),
-    }
+    let named =
+        [("shade", arguments.shade.map(Shade::name)), ("quality", arguments.quality.map(Quality::name))];
+    named.into_iter().filter_map(|(key, value)| Some((key, value?))).try_fold(
+        technique,
+        |technique, (key, value)| {
+            technique
+                .with_option(key, value)
+                .map_err(|what| CliError::Usage(format!("--{key} {value}: {what}")))
+        },
+    )
 }
 
 fn with_opengl(
