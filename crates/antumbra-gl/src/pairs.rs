@@ -144,9 +144,9 @@ impl PairBuilder {
         tiles: &mut TileGrid,
         exact: bool,
     ) {
-        self.union.begin(view.size());
         let light_texel = self.texels.len();
         if exact {
+            self.union.begin(view.size());
             area.pack(&mut self.texels);
         }
         for &(shape, id, ..) in &self.shapes_vs {

@@ -4,9 +4,7 @@ use crate::frame::Frame;
 use crate::resources::{Target, TargetFormat, UploadRing};
 use crate::samples::{Pattern, push_points};
 use crate::scenery::{Area, Light};
-use crate::shader::{
-    COVERAGE, LightKind, Program, ProgramSet, ProgramSource, SCREEN, SURFACE, Stage, Variant,
-};
+use crate::shader::{COVERAGE, Program, ProgramSet, ProgramSource, SURFACE, Variant};
 use crate::state::{Blend, set_color_mask};
 use crate::surface::{bind_texture, set_surface};
 use crate::technique::composite::push_components;
@@ -20,30 +18,18 @@ use glow::HasContext;
 /// GLSL of a point's weight.
 pub(crate) const SAMPLES: &str = include_str!("shaders/samples.glsl");
 
-macro_rules! sample_program {
-    ($name:literal, $defines:literal, $parts:expr, $uniforms:expr) => {
-        ProgramSource {
-            name: $name,
-            vertex: Stage { defines: "", parts: &[SCREEN] },
-            fragment: Stage { defines: $defines, parts: $parts },
-            uniforms: $uniforms,
-            lights: LightKind::Any,
-        }
-    };
-}
-
 const SUM: &[&str] = &[COVERAGE, SURFACE, SAMPLES, include_str!("shaders/samples.frag.glsl")];
 const POINTS: &[&str] = &["u_points", "u_point_count", "u_center", "u_emitter"];
 
 /// In the order of [`TAKEN`], [`SENT`] and [`AVERAGE`].
 pub(crate) const SAMPLE_PROGRAMS: &[ProgramSource] = &[
-    sample_program!("samples taken", "#define TAKEN\n", SUM, POINTS),
-    sample_program!("samples sent", "", SUM, POINTS),
-    sample_program!(
+    ProgramSource::screen("samples taken", "#define TAKEN\n", SUM, POINTS),
+    ProgramSource::screen("samples sent", "", SUM, POINTS),
+    ProgramSource::screen(
         "samples average",
         "",
         &[COVERAGE, SURFACE, include_str!("shaders/samples_average.frag.glsl")],
-        &["u_sums"]
+        &["u_sums"],
     ),
 ];
 const TAKEN: usize = 0;

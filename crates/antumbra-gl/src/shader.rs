@@ -61,7 +61,7 @@ pub(crate) const COVERAGE: &str = include_str!("shaders/coverage.glsl");
 /// The host's surface behind a pixel; needs [`COVERAGE`].
 pub(crate) const SURFACE: &str = include_str!("shaders/surface.glsl");
 /// The vertex stage of passes over tiles of the viewport.
-pub(crate) const SCREEN: &str = include_str!("shaders/screen.vert.glsl");
+const SCREEN: &str = include_str!("shaders/screen.vert.glsl");
 /// Lights with an area as a point sees them.
 pub(crate) const AREA: &str = include_str!("shaders/area.glsl");
 const LIGHTS: &str = include_str!("shaders/lights.glsl");
@@ -74,13 +74,7 @@ const fn screen_program(
     parts: &'static [&'static str],
     lights: LightKind,
 ) -> ProgramSource {
-    ProgramSource {
-        name,
-        vertex: Stage { defines: "", parts: &[SCREEN] },
-        fragment: Stage { defines, parts },
-        uniforms: &[],
-        lights,
-    }
+    ProgramSource { lights, ..ProgramSource::screen(name, defines, parts, &[]) }
 }
 
 /// What the host's surface is made of. Every program exists for each variant: choosing in the
@@ -161,6 +155,22 @@ impl ProgramId {
 }
 
 impl ProgramSource {
+    /// A pass over tiles of the viewport that every frame needs.
+    pub(crate) const fn screen(
+        name: &'static str,
+        defines: &'static str,
+        parts: &'static [&'static str],
+        uniforms: &'static [&'static str],
+    ) -> Self {
+        Self {
+            name,
+            vertex: Stage { defines: "", parts: &[SCREEN] },
+            fragment: Stage { defines, parts },
+            uniforms,
+            lights: LightKind::Any,
+        }
+    }
+
     /// The two stages' whole sources.
     pub(crate) fn sources(&self, embedded: bool, variant: Variant) -> [String; 2] {
         [&self.vertex, &self.fragment].map(|stage| {

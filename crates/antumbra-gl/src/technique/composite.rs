@@ -12,7 +12,7 @@ use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::pairs::{BATCH_LIGHTS, Vertex};
 use crate::resources::UploadRing;
 use crate::scenery::{Receiver, ReceiverShape, Scenery};
-use crate::shader::{COVERAGE, LightKind, Program, ProgramSource, SCREEN, SURFACE, Stage};
+use crate::shader::{COVERAGE, LightKind, Program, ProgramSource, SURFACE, Stage};
 use crate::state::Blend;
 use crate::{Caps, Encoding, Error};
 use antumbra_math::Light as Place;
@@ -103,16 +103,12 @@ macro_rules! part_program {
 
 macro_rules! screen_program {
     ($name:literal, $file:literal, $uniforms:expr) => {
-        ProgramSource {
-            name: $name,
-            vertex: Stage { defines: "", parts: &[SCREEN] },
-            fragment: Stage {
-                defines: "",
-                parts: &[COVERAGE, SURFACE, include_str!(concat!("../shaders/composite/", $file))],
-            },
-            uniforms: $uniforms,
-            lights: LightKind::Any,
-        }
+        ProgramSource::screen(
+            $name,
+            "",
+            &[COVERAGE, SURFACE, include_str!(concat!("../shaders/composite/", $file))],
+            $uniforms,
+        )
     };
 }
 

@@ -20,7 +20,7 @@ use crate::pairs::{GROUP_LIGHTS, hides_its_own_shadow};
 use crate::proxy::ProxyBuilder;
 use crate::resources::UploadRing;
 use crate::scenery::{Area, Light, Scenery};
-use crate::shader::{COVERAGE, LightKind, ProgramSource, SCREEN, SURFACE, Stage};
+use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard};
 use crate::technique::casters::{casters, with_sides};
 use crate::tiles::TileGrid;
@@ -85,22 +85,12 @@ const SOFT: &str = include_str!("../../shaders/map/soft.glsl");
 
 macro_rules! lookup_program {
     ($name:literal, $define:literal) => {
-        ProgramSource {
-            name: $name,
-            vertex: Stage { defines: "", parts: &[SCREEN] },
-            fragment: Stage {
-                defines: concat!("#define ", $define, "\n"),
-                parts: &[
-                    COVERAGE,
-                    SURFACE,
-                    RECEIVER,
-                    SOFT,
-                    include_str!("../../shaders/map/lookup.frag.glsl"),
-                ],
-            },
-            uniforms: lookup::UNIFORMS,
-            lights: LightKind::Any,
-        }
+        ProgramSource::screen(
+            $name,
+            concat!("#define ", $define, "\n"),
+            &[COVERAGE, SURFACE, RECEIVER, SOFT, include_str!("../../shaders/map/lookup.frag.glsl")],
+            lookup::UNIFORMS,
+        )
     };
 }
 

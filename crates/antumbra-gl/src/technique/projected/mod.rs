@@ -15,7 +15,7 @@ use crate::mesh_buffers::MeshCache;
 use crate::proxy::ProxyBuilder;
 use crate::resources::{Target, TargetFormat, UploadRing};
 use crate::scenery::Scenery;
-use crate::shader::{COVERAGE, LightKind, ProgramSource, SCREEN, SURFACE, Stage};
+use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard, set_color_mask};
 use crate::stencil::StencilBuffer;
 use crate::surface::bind_texture;
@@ -64,16 +64,12 @@ macro_rules! caster_stage {
 
 macro_rules! screen_program {
     ($name:literal, $file:literal, $uniforms:expr) => {
-        ProgramSource {
-            name: $name,
-            vertex: Stage { defines: "", parts: &[SCREEN] },
-            fragment: Stage {
-                defines: "",
-                parts: &[COVERAGE, SURFACE, include_str!(concat!("../../shaders/projected/", $file))],
-            },
-            uniforms: $uniforms,
-            lights: LightKind::Any,
-        }
+        ProgramSource::screen(
+            $name,
+            "",
+            &[COVERAGE, SURFACE, include_str!(concat!("../../shaders/projected/", $file))],
+            $uniforms,
+        )
     };
 }
 

@@ -15,7 +15,7 @@ use super::options::{choices, options};
 use super::{About, Batch, Method, Pass, Refusal, Technique};
 use crate::resources::{Target, UploadRing};
 use crate::scenery::Scenery;
-use crate::shader::{COVERAGE, LightKind, ProgramSource, SCREEN, SURFACE, Stage};
+use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard, set_color_mask};
 use crate::stencil::StencilBuffer;
 use crate::{Caps, Error};
@@ -64,13 +64,12 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
         uniforms: &[],
         lights: LightKind::Any,
     },
-    ProgramSource {
-        name: "volume_resolve",
-        vertex: Stage { defines: "", parts: &[SCREEN] },
-        fragment: Stage { defines: "", parts: &[include_str!("../../shaders/volume/resolve.frag.glsl")] },
-        uniforms: &[],
-        lights: LightKind::Any,
-    },
+    ProgramSource::screen(
+        "volume_resolve",
+        "",
+        &[include_str!("../../shaders/volume/resolve.frag.glsl")],
+        &[],
+    ),
 ];
 
 /// Indices into [`PROGRAMS`].
