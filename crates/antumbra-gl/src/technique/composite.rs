@@ -7,7 +7,7 @@
 mod components;
 mod parts;
 
-use super::options::{OptionValue, choices, options};
+use super::options::{choices, options};
 use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::pairs::{BATCH_LIGHTS, Vertex};
 use crate::resources::UploadRing;
@@ -42,38 +42,25 @@ choices! {
     }
 }
 
-impl OptionValue for SphereForm {
-    type Allowed = ();
-
-    fn read(text: &str) -> Option<Self> {
-        [Self::Circle, Self::Tangent].into_iter().find(|form| form.write() == text)
-    }
-
-    fn write(&self) -> String {
-        match self {
-            Self::Circle => "circle".into(),
-            Self::Tangent => "tangent".into(),
-        }
-    }
-
-    fn is_allowed(&self, (): &()) -> bool {
-        true
-    }
-
-    fn expected((): &()) -> String {
-        "circle or tangent".into()
+choices! {
+    impl SphereForm {
+        /// The sphere's own radius about its own centre, as in 2013. Always too small.
+        Circle = "circle",
+        /// The circle in which the light's rays touch the sphere, as in 2017. Exact with the light straight above.
+        Tangent = "tangent",
     }
 }
 
 options! {
-    /// Options of the technique `composite`.
+    /// Options of the technique `composite`. [`components()`] says where the components of a light with an area are, and
+    /// [`crate::Frame::components`] puts them elsewhere.
     pub struct Options {
-        /// What [`crate::Renderer::overlay`] draws. Masks are the physical visibility either way.
+        /// What the overlay draws. Masks are the physical visibility either way.
         pub shade: Shade = Shade::Paper, ();
         /// The circle that stands for a sphere.
         pub sphere: SphereForm = SphereForm::Tangent, ();
         /// Point lights that a light with an area is a collection of, painted: one in its centre, the others on its
-        /// rim, as [`components()`] says; [`crate::Frame::components`] puts them elsewhere.
+        /// rim.
         pub components: u32 = 3, 1..=64;
     }
 }

@@ -17,6 +17,7 @@ use crate::tiles::TileGrid;
 use crate::view::View;
 use crate::{Caps, Encoding, Error};
 use options::Options as _;
+pub use options::{Allowed, Choice, OptionInfo};
 use std::fmt;
 use std::str::FromStr;
 
@@ -58,12 +59,17 @@ macro_rules! techniques {
                 }
             }
 
-            /// Sets one option from text.
+            /// Sets one option from text, one of [`Self::options`].
             ///
             /// # Errors
             /// What is wrong with the key or the value, and what to write instead.
             pub fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
                 match self { $(Self::$name(options) => options.set(key, value),)* }
+            }
+
+            /// Its options, each with its value and what it can be set to: enough to build a menu for any technique.
+            pub fn options(&self) -> Vec<OptionInfo> {
+                match self { $(Self::$name(options) => options.list(),)* }
             }
 
             fn changed(&self) -> Vec<(String, String)> {

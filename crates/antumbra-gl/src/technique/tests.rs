@@ -36,9 +36,71 @@ fn mistakes_say_what_to_write() {
     assert!(of("analytic:").contains("there is no option"), "{}", of("analytic:"));
 }
 
+/// Texts that an option can be set to, and texts that it cannot, from what it says of itself.
+fn right_and_wrong(allowed: Allowed) -> (Vec<String>, Vec<String>) {
+    let text = |x: f64| x.to_string();
+    match allowed {
+        Allowed::Number { low, high, whole } => {
+            assert!(low < high && high.is_finite(), "{low} to {high}");
+            let middle = if whole { (0.5 * (low + high)).round() } else { 0.5 * (low + high) };
+            let wrong = [low - 1.0, high + 1.0, f64::NAN, f64::INFINITY].map(text);
+            let wrong = wrong.into_iter().chain(whole.then(|| text(low + 0.5)));
+            (vec![text(low), text(middle), text(high)], wrong.collect())
+        }
+        Allowed::Switch => (vec!["off".into(), "on".into()], vec!["maybe".into()]),
+        Allowed::Choice(choices) => {
+            assert!(choices.len() > 1, "a choice");
+            (choices.iter().map(|choice| choice.name.into()).collect(), vec!["neither".into()])
+        }
+    }
+}
+
+#[test]
+fn every_option_can_be_shown_and_set() {
+    for technique in Technique::all() {
+        let options = technique.options();
+        let mistake = { technique }.set("no-such", "1").expect_err("no such option");
+        let keys: Vec<&str> = options.iter().map(|option| option.key.as_str()).collect();
+        assert!(mistake.ends_with(&keys.join(", ")), "{technique} lists {keys:?}: {mistake}");
+        for (i, option) in options.iter().enumerate() {
+            let what = format!("option {} of {technique}", option.key);
+            assert_eq!(option.value, option.default, "{what}: new");
+            assert!(is_plain(option.help), "{what}: {:?}", option.help);
+            let (right, wrong) = right_and_wrong(option.allowed);
+            for text in right.iter().chain([&option.default]) {
+                let mut changed = technique;
+                changed.set(&option.key, text).unwrap_or_else(|error| panic!("{what}: {error}"));
+                let shown = changed.options();
+                assert_eq!(&shown[i].value, text, "{what}: set and shown");
+                assert_eq!(shown[i].default, option.default, "{what}: the default stays");
+                assert!(
+                    shown.iter().zip(&options).all(|(a, b)| a.key == option.key || a == b),
+                    "{what}: alone"
+                );
+                assert_eq!(changed == technique, *text == option.default, "{what}: {text} is another value");
+            }
+            for text in wrong.iter().chain([&String::new()]) {
+                let mut changed = technique;
+                assert!(changed.set(&option.key, text).is_err(), "{what} is not {text:?}");
+                assert_eq!(changed, technique, "{what}: mistakes set nothing");
+            }
+            if let Allowed::Choice(choices) = option.allowed {
+                assert!(choices.iter().all(|choice| is_plain(choice.help)), "{what}: {choices:?}");
+            }
+        }
+    }
+}
+
+/// Whether it is sentences for people, without the links of documentation.
+fn is_plain(help: &str) -> bool {
+    help.starts_with(char::is_uppercase)
+        && help.ends_with('.')
+        && !["[", "  ", "\n", "::"].iter().any(|odd| help.contains(odd))
+}
+
 #[expect(unreachable_pub, reason = "the macros declare what a crate makes public")]
 mod own {
-    use crate::technique::options::{Options as _, choices, options};
+    use crate::technique::options::{Allowed, Choice, Options as _, choices, options};
 
     choices! {
         /// A choice.
@@ -55,13 +117,33 @@ mod own {
         pub struct Options {
             /// A number.
             pub map_size: u32 = 64, 16..=128;
-            /// Another.
+            /// Another,
+            /// of two lines.
             pub bias: f32 = 0.5, 0.0..=2.0;
             /// A switch.
             pub stencil: bool = true, ();
             /// A choice.
             pub kind: Kind = Kind::Soft, ();
         }
+    }
+
+    #[test]
+    fn options_say_what_they_are() {
+        let list = Options { bias: f32::NAN, ..Options::default() }.list();
+        let said: Vec<_> =
+            list.iter().map(|o| (o.key.as_str(), o.help, o.value.as_str(), o.allowed)).collect();
+        let kinds = Allowed::Choice(&[
+            Choice { name: "soft", help: "One." },
+            Choice { name: "hard", help: "The other." },
+        ]);
+        let expected = [
+            ("map-size", "A number.", "64", Allowed::Number { low: 16.0, high: 128.0, whole: true }),
+            ("bias", "Another, of two lines.", "NaN", Allowed::Number { low: 0.0, high: 2.0, whole: false }),
+            ("stencil", "A switch.", "on", Allowed::Switch),
+            ("kind", "A choice.", "soft", kinds),
+        ];
+        assert_eq!(said, expected);
+        assert_eq!(list[1].default, "0.5");
     }
 
     #[test]

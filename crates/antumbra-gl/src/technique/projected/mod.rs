@@ -50,7 +50,7 @@ options! {
         /// What a shadow does to the picture.
         pub shade: Shade = Shade::Physical, ();
         /// Whether a stencil buffer keeps shadows on their receivers and from being blended twice. Without it, to
-        /// show what it is for and with [`Shade::Paper`] alone, every triangle blends, wherever the receiver's plane
+        /// show what it is for and with `shade=paper` alone, every triangle blends, wherever the receiver's plane
         /// is not hidden.
         pub stencil: bool = true, ();
     }
