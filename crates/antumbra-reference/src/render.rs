@@ -1,7 +1,7 @@
 //! Pictures: radiance, visibility of each light, and which primitive each pixel sees. Rows run in parallel; every
 //! pixel depends on its own place alone, so the result is the same on any number of threads.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -46,19 +46,55 @@ impl Tracer {
     pub fn render(&self, width: u32, height: u32, samples: u32, progress: Progress<'_>) -> Vec<[f32; 3]> {
         let samples = samples.max(1);
         rows(width, height, [0.0; 3], progress, |x, y| {
-            let pixel = Pattern::new(hash([PIXEL, x, y]));
             let mut sum = DVec3::ZERO;
             for index in 0..samples {
-                let offset = if samples == 1 { DVec2::splat(0.5) } else { pixel.point(index) };
-                sum += match self.seen(x, y, offset, width, height) {
-                    Some(surface) => {
-                        self.radiance(&surface, |light| Pattern::new(hash([LIGHT, x, y, light])).point(index))
-                    }
-                    None => self.background,
-                };
+                let offset = if samples == 1 { DVec2::splat(0.5) } else { stratum(x, y, index) };
+                sum += self.sample(x, y, offset, width, height, index);
             }
             (sum / f64::from(samples)).as_vec3().to_array()
         })
+    }
+
+    /// Adds ray number `sample` of every pixel to `sums`, linear radiance, rows top to bottom: a picture made step by
+    /// step. After the rays 0 to N - 1, N above 1, `sums` over N is [`render`](Self::render) with N samples, to
+    /// rounding; any N is a whole picture, and the best ones are powers of two.
+    ///
+    /// `keep_going` is asked before each row, from any thread. Once it says no the remaining rows are left as they
+    /// were, and the answer is false: each row has got the ray or not, and nothing tells which. An empty picture is
+    /// complete at once.
+    ///
+    /// # Panics
+    /// If `sums` has not `width` times `height` elements.
+    pub fn accumulate(
+        &self,
+        width: u32,
+        height: u32,
+        sample: u32,
+        sums: &mut [DVec3],
+        keep_going: &(dyn Fn() -> bool + Sync),
+    ) -> bool {
+        assert_eq!(
+            sums.len(),
+            width as usize * height as usize,
+            "a sum for each of {width} by {height} pixels"
+        );
+        if sums.is_empty() {
+            return true;
+        }
+        let stopped = AtomicBool::new(false);
+        sums.par_chunks_mut(width as usize).zip(0..height).for_each(|(row, y)| {
+            if stopped.load(Ordering::Relaxed) {
+                return;
+            }
+            if !keep_going() {
+                stopped.store(true, Ordering::Relaxed);
+                return;
+            }
+            for (x, sum) in (0..width).zip(row) {
+                *sum += self.sample(x, y, stratum(x, y, sample), width, height, sample);
+            }
+        });
+        !stopped.into_inner()
     }
 
     /// The visibility of one light, rows top to bottom: 1 lit, 0 in full shadow or facing away, and 1 where the pixel's
@@ -112,12 +148,27 @@ impl Tracer {
         })
     }
 
+    /// Radiance along one ray through a pixel, with stratum number `index` of every area light.
+    fn sample(&self, x: u32, y: u32, offset: DVec2, width: u32, height: u32, index: u32) -> DVec3 {
+        match self.seen(x, y, offset, width, height) {
+            Some(surface) => {
+                self.radiance(&surface, |light| Pattern::new(hash([LIGHT, x, y, light])).point(index))
+            }
+            None => self.background,
+        }
+    }
+
     /// What is seen through a point of a pixel, `offset` counted from its top left corner.
     fn seen(&self, x: u32, y: u32, offset: DVec2, width: u32, height: u32) -> Option<Surface> {
         let at = DVec2::new(f64::from(x), f64::from(y)) + offset;
         let (origin, direction) = self.camera.ray(at.x, at.y, width, height);
         self.surface(&Ray::new(origin, direction))
     }
+}
+
+/// Where in its pixel ray number `index` goes.
+fn stratum(x: u32, y: u32, index: u32) -> DVec2 {
+    Pattern::new(hash([PIXEL, x, y])).point(index)
 }
 
 /// Fills a picture row by row, in parallel.

@@ -106,6 +106,11 @@ impl Tracer {
         &self.lights
     }
 
+    /// Looks at the same moment from elsewhere: what is ready for rays stays ready.
+    pub fn set_camera(&mut self, camera: Camera) {
+        self.camera = camera;
+    }
+
     /// The first surface that a ray meets, if any. Where several coincide, which of them is not defined, but it is
     /// the same at every call.
     pub fn surface(&self, ray: &Ray) -> Option<Surface> {
