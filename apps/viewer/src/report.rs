@@ -1,0 +1,123 @@
+//! The state as JSON, for programs that drive or watch this one (`--json`).
+
+use antumbra_scene::LightKind;
+use egui::accesskit::{NodeId, Rect, TreeUpdate};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::canvas::Side;
+use crate::model::pick::Item;
+use crate::model::{Model, Side as Component};
+
+/// A control of the interface, as screen readers see it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Control {
+    /// `Button`, `CheckBox`, `Slider`, ...
+    pub(crate) role: String,
+    /// Its name.
+    pub(crate) label: String,
+    /// Its value as text, if it has one.
+    pub(crate) value: Option<String>,
+    /// x, y, width, height in the window, pixels from the top left.
+    pub(crate) rect: [f64; 4],
+}
+
+/// The controls of a frame that have a name.
+pub(crate) fn controls(update: &TreeUpdate, scale: f64) -> Vec<Control> {
+    let named = |id: &NodeId| {
+        let (_, node) = update.nodes.iter().find(|(other, _)| other == id)?;
+        node.value().or(node.label()).map(str::to_owned)
+    };
+    let control = |node: &egui::accesskit::Node| {
+        let own = node.label().map(str::to_owned);
+        let label = own.or_else(|| node.labelled_by().iter().find_map(named))?;
+        let Rect { x0, y0, x1, y1 } = node.bounds()?;
+        let text = |t: Option<&str>| t.map(str::to_owned);
+        let toggled = node.toggled().map(|t| format!("{t:?}").to_lowercase());
+        let value = text(node.value()).or(node.numeric_value().map(|v| v.to_string())).or(toggled);
+        let rect = [x0, y0, x1 - x0, y1 - y0].map(|x| x * scale);
+        Some(Control { role: format!("{:?}", node.role()), label, value, rect })
+    };
+    update.nodes.iter().filter_map(|(_, node)| control(node)).collect()
+}
+
+/// The state of the program.
+pub(crate) fn state(model: &Model, sides: &[Side; 2], rect: [i32; 4], window: [u32; 2], scale: f32) -> Value {
+    let scene = model.scene();
+    let moment = scene.moment(model.clock.time);
+    let lights: Vec<Value> = moment
+        .lights
+        .iter()
+        .map(|light| {
+            let direction = match light.kind {
+                LightKind::Directional { direction }
+                | LightKind::Spot { direction, .. }
+                | LightKind::Disc { direction, .. }
+                | LightKind::Rectangle { direction, .. } => Some(direction.to_array()),
+                LightKind::Point | LightKind::Sphere { .. } => None,
+            };
+            json!({
+                "name": light.name,
+                "position": light.position.to_array(),
+                "direction": direction,
+                "intensity": light.intensity,
+                "color": light.color.to_array(),
+            })
+        })
+        .collect();
+    let objects: Vec<Value> = scene
+        .objects
+        .iter()
+        .enumerate()
+        .map(|(i, object)| {
+            let here = moment.primitives.iter().find(|p| p.object == i).map(|p| p.pose.translation.to_array());
+            json!({ "name": object.name, "position": here, "parts": object.parts.len() })
+        })
+        .collect();
+    let chosen = model.chosen.map(|item| match item {
+        Item::Light(i) => json!({ "light": i }),
+        Item::Object(i) => json!({ "object": i }),
+    });
+    let component = model.component.map(|side| match side {
+        Component::Left => "left",
+        Component::Right => "right",
+    });
+    let camera = scene.camera;
+    let sides: Vec<Value> = sides
+        .iter()
+        .take(model.settings.shown().len())
+        .map(|side| {
+            json!({
+                "objection": side.objection,
+                "pairs": side.stats.map(|s| s.pairs),
+                "polygons": side.stats.map(|s| s.polygons),
+            })
+        })
+        .collect();
+    json!({
+        "scene": model.document.source().name(),
+        "modified": model.document.is_modified(),
+        "playing": model.clock.playing,
+        "time": model.clock.time,
+        "speed": model.clock.speed,
+        "light": model.light,
+        "component": component,
+        "components": model.components.iter().map(|c| json!([c.light, c.offset.to_array()])).collect::<Vec<_>>(),
+        "chosen": chosen,
+        "lights": lights,
+        "objects": objects,
+        "camera": {
+            "eye": camera.eye.to_array(),
+            "target": camera.target.to_array(),
+            "up": camera.up.to_array(),
+            "fov_y": camera.fov_y,
+        },
+        "settings": serde_json::to_value(&model.settings).unwrap_or_default(),
+        "sides": sides,
+        "dialog": model.dialog.as_ref().map(|d| format!("{d:?}").to_lowercase()),
+        "message": model.message.as_ref().map(|m| m.text.clone()),
+        "picture": rect,
+        "window": window,
+        "scale": scale,
+    })
+}
