@@ -85,14 +85,16 @@ impl<'a> Contest<'a> {
         told: &mut dyn FnMut(u32),
     ) -> Result<Vec<Option<Timing>>, CliError> {
         let aspect = f64::from(size.width) / f64::from(size.height);
-        let any = |wanted: fn(&Runner) -> bool| {
-            self.runners.iter().zip(takes_part).any(|(runner, takes_part)| *takes_part && wanted(runner))
-        };
-        let setting = any(|runner| matches!(runner, Runner::Gl(_)))
-            .then(|| Setting::new(scene, time, aspect))
+        let mut parties = self.runners.iter_mut().zip(takes_part).filter(|(_, takes_part)| **takes_part);
+        // One for all: what is in it does not depend on who makes it.
+        let setting = parties
+            .find_map(|(runner, _)| if let Runner::Gl(stage) = runner { Some(stage) } else { None })
+            .map(|stage| stage.setting(scene, time, aspect))
             .transpose()
             .map_err(CliError::OpenGl)?;
-        let tracers = any(|runner| matches!(runner, Runner::Cpu))
+        let mut parties = self.runners.iter().zip(takes_part);
+        let tracers = parties
+            .any(|(runner, takes_part)| *takes_part && matches!(runner, Runner::Cpu))
             .then(|| [Tracer::new(&without_shadows(scene), time), Tracer::new(scene, time)]);
         let mut samples: Vec<Samples> = takes_part.iter().map(|_| Samples::default()).collect();
         for round in 0..frames + WARM_UP {

@@ -8,7 +8,7 @@
 //! plainly (colour and depth alone) and with shadows, one after the other, every frame between two glFinish; the first
 //! rounds are dropped. Absolute times depend on the machine, the ratio is what counts.
 
-use antumbra_host::{Api, Buffers, ColorFormat, HeadlessContext, Setting, Stage};
+use antumbra_host::{Api, Buffers, ColorFormat, HeadlessContext, Stage};
 use antumbra_scene::Scene;
 use glow::HasContext;
 use std::fmt::Write;
@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let context = HeadlessContext::new(Api::Gl33)?;
     let gl = context.gl().clone();
     let mut stage = Stage::new(&gl)?;
-    let setting = Setting::new(&scene, 0.0, 1.0)?;
+    let setting = stage.setting(&scene, 0.0, 1.0)?;
     let (mut plain, mut shadowed) = (Vec::new(), Vec::new());
     for round in 0..ROUNDS + WARM_UP {
         for (with_shadows, times) in [(false, &mut plain), (true, &mut shadowed)] {

@@ -1,17 +1,15 @@
 //! Triangles on the GPU, one buffer for each shape that is drawn, kept while it is.
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::collections::hash_map::Entry;
 
 use antumbra::glam::DVec3;
-use antumbra_scene::{Mesh, Shape};
+use antumbra_scene::Shape;
 use glow::HasContext;
 
 use crate::HostError;
+use crate::meshes::Key;
 use crate::surface::{Corner, Triangles};
-
-/// What tells shapes apart: the kind, and the bits of the sizes or where the mesh is in memory.
-type Key = [u64; 4];
 
 /// The buffers of the shapes that were drawn last.
 #[derive(Default)]
@@ -27,30 +25,6 @@ pub(crate) struct Buffer {
     pub(crate) count: i32,
     /// Of the corners, in the shape's space.
     pub(crate) origin: DVec3,
-    /// Held, so that no other mesh comes to lie where this one is.
-    _mesh: Option<Arc<Mesh>>,
-}
-
-/// Of a shape that is drawn as triangles; `None` for the others.
-fn key(shape: &Shape) -> Option<Key> {
-    let bits = |kind, sizes: [f64; 3]| {
-        let [a, b, c] = sizes.map(f64::to_bits);
-        Some([kind, a, b, c])
-    };
-    match *shape {
-        Shape::Ellipsoid { radii } => bits(0, radii.to_array()),
-        Shape::Cylinder { radius, height, radius_top } => bits(1, [radius, height, radius_top]),
-        Shape::Capsule { radius, height } => bits(2, [radius, height, 0.0]),
-        Shape::Box { size } => bits(3, size.to_array()),
-        Shape::Torus { major_radius, minor_radius } => bits(4, [major_radius, minor_radius, 0.0]),
-        Shape::Mesh(ref mesh) => Some([5, Arc::as_ptr(mesh).addr() as u64, 0, 0]),
-        Shape::Plane
-        | Shape::Rectangle { .. }
-        | Shape::Disc { .. }
-        | Shape::Triangle { .. }
-        | Shape::Sphere { .. }
-        | Shape::Cone { .. } => None,
-    }
 }
 
 impl Buffers {
@@ -60,7 +34,8 @@ impl Buffers {
         gl: &glow::Context,
         shapes: impl Iterator<Item = &'a Shape>,
     ) -> Result<(), HostError> {
-        let needed: HashMap<Key, &Shape> = shapes.filter_map(|shape| Some((key(shape)?, shape))).collect();
+        let needed: HashMap<Key, &Shape> =
+            shapes.filter_map(|shape| Some((Key::new(shape)?, shape))).collect();
         self.of.retain(|key, buffer| {
             let keep = needed.contains_key(key);
             if !keep {
@@ -70,7 +45,7 @@ impl Buffers {
             keep
         });
         for (key, shape) in needed {
-            if let std::collections::hash_map::Entry::Vacant(vacant) = self.of.entry(key) {
+            if let Entry::Vacant(vacant) = self.of.entry(key) {
                 vacant.insert(Buffer::new(gl, shape)?);
             }
         }
@@ -79,7 +54,7 @@ impl Buffers {
 
     /// The triangles of a shape that [`Self::prepare`] was called with.
     pub(crate) fn get(&self, shape: &Shape) -> Option<&Buffer> {
-        self.of.get(&key(shape)?)
+        self.of.get(&Key::new(shape)?)
     }
 
     /// # Safety
@@ -117,8 +92,7 @@ impl Buffer {
             }
             gl.bind_buffer(glow::ARRAY_BUFFER, None);
             gl.bind_vertex_array(None);
-            let mesh = if let Shape::Mesh(mesh) = shape { Some(Arc::clone(mesh)) } else { None };
-            Ok(Self { vertex_array, buffer, count, origin: triangles.origin, _mesh: mesh })
+            Ok(Self { vertex_array, buffer, count, origin: triangles.origin })
         }
     }
 

@@ -1,12 +1,11 @@
 //! A scene in antumbra's terms: what any host's author writes once.
 
 use crate::HostError;
+use crate::meshes::Meshes;
 use antumbra::glam::{DMat4, DVec3};
 use antumbra::math::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle, TriangleMesh};
-use antumbra::technique::Part;
-use antumbra::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery, Soft, Technique};
+use antumbra::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery};
 use antumbra_scene::{self as scene, LightKind, Moment, Scene};
-use std::sync::Arc;
 
 /// Sides of a tessellated circle, as antumbra's techniques have them for the shapes they tessellate.
 pub(crate) const SEGMENTS: u32 = 128;
@@ -36,11 +35,21 @@ impl Described {
     }
 }
 
-/// Describes a scene to antumbra.
+/// Describes a scene to antumbra, with meshes of its own; [`Stage::setting`](crate::Stage::setting) makes each once
+/// for many moments.
 ///
 /// # Errors
 /// [`HostError::BadRequest`] for a mesh that is none; those of scene files are.
 pub fn describe(scene: &Scene, moment: &Moment) -> Result<Described, HostError> {
+    describe_with(scene, moment, &mut Meshes::default())
+}
+
+/// As [`describe`], with the meshes that `meshes` has.
+pub(crate) fn describe_with(
+    scene: &Scene,
+    moment: &Moment,
+    meshes: &mut Meshes,
+) -> Result<Described, HostError> {
     let mut described =
         Described { lights: moment.lights.iter().map(light).collect(), ..Described::default() };
     for (i, primitive) in moment.primitives.iter().enumerate() {
@@ -61,49 +70,15 @@ pub fn describe(scene: &Scene, moment: &Moment) -> Result<Described, HostError> 
             described.occluders.push(Occluder::new(shape).with_id(id));
             continue;
         }
-        let mesh = tessellated(&primitive.shape).map_err(|error| {
-            HostError::BadRequest(format!("object \"{}\": {error}", scene.objects[primitive.object].name))
+        let mesh = meshes.get(&primitive.shape).map_err(|error| {
+            let name = scene.objects.get(primitive.object).map_or("", |object| &object.name);
+            HostError::BadRequest(format!("object \"{name}\": {error}"))
         })?;
         let pose = &primitive.pose;
         let model = DMat4::from_rotation_translation(pose.rotation, pose.translation);
-        described.meshes.push(MeshOccluder { mesh: Arc::new(mesh), model, id });
+        described.meshes.push(MeshOccluder { mesh, model, id });
     }
     Ok(described)
-}
-
-/// What a technique cannot do of a scene: names the object, and what can. `None` if it can do it.
-pub fn objection(scene: &Scene, moment: &Moment, technique: &Technique, soft: Soft) -> Option<HostError> {
-    let described = match describe(scene, moment) {
-        Ok(described) => described,
-        Err(error) => return Some(error),
-    };
-    let refusal = soft.refusal(technique, &described.scenery())?;
-    let owner = |id: u32| &moment.primitives[id as usize - 1];
-    let named = |id: u32| format!("object \"{}\"", scene.objects[owner(id).object].name);
-    let mut what = format!("the technique {} {}", technique.name(), refusal.reason);
-    let object = match refusal.part {
-        Part::Light(i) => format!("light \"{}\"", moment.lights[i].name),
-        Part::Occluder(i) => named(described.occluders[i].id),
-        Part::Mesh(i) => {
-            let id = described.meshes[i].id;
-            let kind = kind_of(&owner(id).shape);
-            if kind != "mesh" {
-                what += &format!(", and this {kind} is drawn as one");
-            }
-            named(id)
-        }
-        Part::Receivers => "the scene".into(),
-        Part::Options => "the options".into(),
-    };
-    let able = Technique::all().filter(|other| soft.refusal(other, &described.scenery()).is_none());
-    let mut names: Vec<&str> = able.map(|other| other.name()).collect();
-    names.push("raytraced");
-    let mut instead = format!("use --technique {}", names.join(" or "));
-    let sampled = Soft::samples(16);
-    if soft == Soft::Native && sampled.refusal(technique, &described.scenery()).is_none() {
-        instead += &format!(", or --soft {sampled}");
-    }
-    Some(HostError::Unsupported { object, what, instead })
 }
 
 fn light(light: &scene::Light) -> Light {
@@ -168,21 +143,4 @@ pub(crate) fn shape(primitive: &scene::Primitive) -> Option<Shape> {
         }
         _ => return None,
     })
-}
-
-fn kind_of(shape: &scene::Shape) -> &'static str {
-    match shape {
-        scene::Shape::Plane => "plane",
-        scene::Shape::Rectangle { .. } => "rectangle",
-        scene::Shape::Disc { .. } => "disc",
-        scene::Shape::Triangle { .. } => "triangle",
-        scene::Shape::Sphere { .. } => "sphere",
-        scene::Shape::Ellipsoid { .. } => "ellipsoid",
-        scene::Shape::Cone { .. } => "cone",
-        scene::Shape::Cylinder { .. } => "cylinder",
-        scene::Shape::Capsule { .. } => "capsule",
-        scene::Shape::Box { .. } => "box",
-        scene::Shape::Torus { .. } => "torus",
-        scene::Shape::Mesh(_) => "mesh",
-    }
 }

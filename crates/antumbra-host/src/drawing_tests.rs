@@ -110,8 +110,8 @@ fn turned() -> DQuat {
     DQuat::from_xyzw(0.3, -0.2, 0.5, 0.8).normalize()
 }
 
-fn setting(scene: &Scene) -> Setting {
-    Setting::new(scene, 0.0, f64::from(WIDTH) / f64::from(HEIGHT)).expect("a setting")
+fn setting(stage: &mut Stage, scene: &Scene) -> Setting {
+    stage.setting(scene, 0.0, f64::from(WIDTH) / f64::from(HEIGHT)).expect("a setting")
 }
 
 /// What the reference sees through each pixel's centre, rows from top to bottom.
@@ -193,7 +193,7 @@ fn surfaces_agree(api: Api) {
     for (shape, turn, exact) in shapes() {
         for eye in EYES.into_iter().chain(inside(&shape)) {
             let scene = scene(&shape, eye, 1);
-            let setting = setting(&scene);
+            let setting = setting(&mut stage, &scene);
             draw(&mut stage, &setting, 1);
             let surface = stage.read_surface(&setting).expect("a surface");
             let name =
@@ -224,7 +224,7 @@ fn triangles_are_lit_as_the_reference_lights_them() {
     for (shape, turn, _) in shapes() {
         for (lights, samples) in [(1, 1), (600, 1), (2, 4)] {
             let scene = scene(&shape, EYES[1], lights);
-            let setting = setting(&scene);
+            let setting = setting(&mut stage, &scene);
             draw(&mut stage, &setting, samples);
             let drawn = stage.read_color().expect("a picture");
             let truth = Tracer::new(&scene, 0.0).render(WIDTH, HEIGHT, 1, &|_, _| {});
@@ -271,7 +271,8 @@ fn buffers_are_made_once_and_deleted() {
     let before = buffers(gl);
     let mut stage = Stage::new(gl).expect("a stage");
     let plain = buffers(gl);
-    let all: Vec<Setting> = shapes().iter().map(|(shape, ..)| setting(&scene(shape, EYES[0], 1))).collect();
+    let all: Vec<Setting> =
+        shapes().iter().map(|(shape, ..)| setting(&mut stage, &scene(shape, EYES[0], 1))).collect();
     for round in 0..3 {
         for setting in &all {
             draw(&mut stage, setting, 1);
@@ -284,11 +285,13 @@ fn buffers_are_made_once_and_deleted() {
     for (i, (shape, ..)) in shapes().into_iter().enumerate() {
         many.objects.push(object(&format!("o{i}"), shape, Pose::IDENTITY));
     }
-    draw(&mut stage, &setting(&many), 1);
+    let many = setting(&mut stage, &many);
+    draw(&mut stage, &many, 1);
     assert_eq!(buffers(gl), plain + shapes().len(), "the first shape is there twice");
-    draw(&mut stage, &setting(&scene(&Shape::Sphere { radius: 1.0 }, EYES[0], 1)), 1);
+    let ball = setting(&mut stage, &scene(&Shape::Sphere { radius: 1.0 }, EYES[0], 1));
+    draw(&mut stage, &ball, 1);
     assert_eq!(buffers(gl), plain, "a ball needs none");
-    draw(&mut stage, &setting(&many), 1);
+    draw(&mut stage, &many, 1);
     drop(stage);
     assert_eq!(buffers(gl), before, "nothing is left");
     // SAFETY: asks for the error flag.

@@ -11,17 +11,23 @@ mod describe;
 #[cfg(test)]
 mod drawing_tests;
 mod error;
+mod meshes;
+mod objection;
 mod picture;
 mod program;
+mod setting;
 mod stage;
+mod state;
 mod surface;
 mod targets;
 mod timer;
 
 pub use context::{Api, ContextInfo, HeadlessContext};
-pub use describe::{Described, describe, objection};
+pub use describe::{Described, describe};
 pub use error::HostError;
+pub use objection::objection;
 pub use picture::{RenderOptions, Rendered};
-pub use stage::{Buffers, Setting, Stage};
+pub use setting::Setting;
+pub use stage::{Buffers, Picture, Stage};
 pub use targets::ColorFormat;
 pub use timer::FrameTimer;

@@ -1,8 +1,9 @@
 //! Pictures and visibilities read back from the stage.
 
 use crate::HostError;
-use crate::describe::objection;
-use crate::stage::{Buffers, Setting, Stage};
+use crate::setting::Setting;
+use crate::stage::{Buffers, Picture, Stage};
+use crate::state;
 use crate::targets::ColorFormat;
 use antumbra::glam::{DVec3, Vec3};
 use antumbra::math::Light as Place;
@@ -50,12 +51,13 @@ impl Stage {
     /// [`HostError::Unsupported`] names what cannot be drawn; see also [`Stage::draw`].
     pub fn render(&mut self, scene: &Scene, options: &RenderOptions) -> Result<Rendered, HostError> {
         let RenderOptions { width, height, .. } = *options;
-        if let Some(error) = objection(scene, &scene.moment(options.time), &options.technique, options.soft) {
+        self.check_size(width, height, options.msaa)?;
+        let setting = self.setting(scene, options.time, f64::from(width) / f64::from(height))?;
+        if let Some(error) = setting.objection(&options.technique, options.soft) {
             return Err(error);
         }
         self.set_technique(options.technique)?;
         self.set_soft(options.soft);
-        let setting = Setting::new(scene, options.time, f64::from(width) / f64::from(height))?;
         self.draw(&setting, width, height, options.msaa, ColorFormat::Rgba16F, Buffers::All)?;
         if options.shadows {
             self.add_shadows(&setting)?;
@@ -74,34 +76,13 @@ impl Stage {
     }
 
     /// The colour, linear, rows from top to bottom.
-    pub(crate) fn read_color(&self) -> Result<Vec<[f32; 3]>, HostError> {
+    pub(crate) fn read_color(&mut self) -> Result<Vec<[f32; 3]>, HostError> {
+        let Some(Picture { framebuffer, width, height, .. }) = self.color() else { return Ok(Vec::new()) };
         let gl = &self.gl;
-        let Some(targets) = &self.targets else { return Ok(Vec::new()) };
-        let (width, height, ..) = targets.key;
         // SAFETY: reads into memory of the right size from a framebuffer of this stage.
         let pixels: Vec<[f32; 4]> = unsafe {
-            let source = match targets.resolved {
-                None => targets.color_only,
-                Some((_, resolved)) => {
-                    gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(targets.color_only));
-                    gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(resolved));
-                    gl.blit_framebuffer(
-                        0,
-                        0,
-                        width,
-                        height,
-                        0,
-                        0,
-                        width,
-                        height,
-                        glow::COLOR_BUFFER_BIT,
-                        glow::NEAREST,
-                    );
-                    resolved
-                }
-            };
-            gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(source));
-            read(gl, width, height, glow::RGBA, glow::FLOAT)
+            gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(framebuffer));
+            read(gl, width as i32, height as i32, glow::RGBA, glow::FLOAT)
         };
         check(gl)?;
         Ok(flip(&pixels, width as usize).map(|[r, g, b, _]| [r, g, b]).collect())
@@ -276,7 +257,7 @@ unsafe fn read<T: bytemuck::Pod>(
         // Mesa's llvmpipe 22.3 reads what its threads have not drawn yet where another framebuffer
         // has been bound since.
         gl.finish();
-        gl.pixel_store_i32(glow::PACK_ALIGNMENT, 4);
+        state::reset_packing(gl);
         gl.read_pixels(0, 0, width, height, layout, kind, bytes);
     }
     pixels

@@ -3,15 +3,14 @@
 use crate::HostError;
 use crate::buffers::Buffers as TriangleBuffers;
 use crate::cast::Cast;
-use crate::describe::{Described, describe};
+use crate::meshes::Meshes;
 use crate::program::{Areas, Kind, MAX_LIGHTS, Program};
+use crate::setting::Setting;
+use crate::state;
 use crate::targets::{ColorFormat, Targets};
-use antumbra::glam::{DMat4, DVec3, DVec4, Mat3, Vec3};
-use antumbra::math::Plane;
-use antumbra::{
-    Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Soft, Surface, Technique,
-};
-use antumbra_scene::{Moment, Primitive, Scene};
+use antumbra::glam::{DMat4, DVec3, Mat3, Vec3};
+use antumbra::{DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Soft, Surface, Technique};
+use antumbra_scene::{Primitive, Scene};
 use glow::HasContext;
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -22,6 +21,7 @@ pub struct Stage {
     pub(crate) shadows: antumbra::Renderer,
     /// Without and with many samples a pixel, without areas, with balls, with flat lights; compiled when they are first used.
     programs: [Option<[Program; 2]>; 2 * Areas::COUNT],
+    meshes: Meshes,
     triangles: TriangleBuffers,
     vertex_array: glow::VertexArray,
     lights: glow::Buffer,
@@ -37,87 +37,20 @@ pub enum Buffers {
     All,
 }
 
+/// A picture in the context's memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Linear radiance, one sample a pixel, without mipmaps; read with nearest filtering unless a sampler says otherwise.
+    pub texture: glow::Texture,
+    /// With the texture as its only colour buffer, and no depth.
+    pub framebuffer: glow::Framebuffer,
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+}
+
 const ATTACHMENTS: [u32; 3] = [glow::COLOR_ATTACHMENT0, glow::COLOR_ATTACHMENT1, glow::COLOR_ATTACHMENT2];
-
-/// A scene at one moment, ready to be drawn any number of times.
-pub struct Setting {
-    /// The lights and occluders in antumbra's terms.
-    pub described: Described,
-    pub(crate) primitives: Vec<Primitive>,
-    pub(crate) camera: Camera,
-    background: Vec3,
-    ambient: Vec3,
-    near: f64,
-    bounds: Vec<Plane>,
-}
-
-impl Setting {
-    /// Prepares a scene at `time` for a picture of this shape.
-    ///
-    /// # Errors
-    /// As [`describe`].
-    pub fn new(scene: &Scene, time: f64, aspect: f64) -> Result<Self, HostError> {
-        let moment = scene.moment(time);
-        let described = describe(scene, &moment)?;
-        let near = near_distance(scene, &moment);
-        let y = (scene.camera.fov_y * 0.5).tan().recip();
-        // Infinite and reversed: depth is near / distance, of which float32 keeps the same relative
-        // precision from the nearest thing to the farthest.
-        let projection = DMat4::from_cols(
-            DVec4::X * (y / aspect),
-            DVec4::Y * y,
-            DVec4::new(0.0, 0.0, 0.0, -1.0),
-            DVec4::Z * near,
-        );
-        Ok(Self {
-            described,
-            camera: Camera { view: scene.camera.view(), projection },
-            background: scene.image.background.as_vec3(),
-            ambient: scene.ambient.as_vec3() * PI,
-            near,
-            bounds: bounds(&moment, scene.camera.eye),
-            primitives: moment.primitives,
-        })
-    }
-}
-
-/// Half-spaces that hold everything seen: the eye's side of every infinite plane, or the sides of a
-/// box round everything.
-fn bounds(moment: &Moment, eye: DVec3) -> Vec<Plane> {
-    let mut planes = Vec::new();
-    let mut whole: Option<(DVec3, DVec3)> = None;
-    for primitive in &moment.primitives {
-        match primitive.bounds() {
-            Some((low, high)) => whole = Some(whole.map_or((low, high), |(a, b)| (a.min(low), b.max(high)))),
-            None => {
-                let plane = Plane::through(primitive.pose.translation, primitive.pose.direction(DVec3::Y));
-                // With the eye in the plane both sides are seen.
-                planes.extend(plane.towards(eye));
-            }
-        }
-    }
-    if let (Some((low, high)), true) = (whole, planes.is_empty()) {
-        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-            planes.extend([Plane::through(low, axis), Plane::through(high, -axis)]);
-        }
-    }
-    planes
-}
-
-/// Half the distance to the nearest thing, so that it is not cut off; where the eye is on it or may
-/// be, the smallest distance that float32 tells from zero at the eye.
-fn near_distance(scene: &Scene, moment: &Moment) -> f64 {
-    let eye = scene.camera.eye;
-    let nearest = moment
-        .primitives
-        .iter()
-        .map(|p| match p.bounds() {
-            Some((low, high)) => eye.distance(eye.clamp(low, high)),
-            None => p.pose.direction(DVec3::Y).dot(eye - p.pose.translation).abs(),
-        })
-        .fold(1.0, f64::min);
-    (0.5 * nearest).max(1e-7 * eye.length().max(1e-3))
-}
 
 impl Stage {
     /// Compiles the shaders of the host and of antumbra.
@@ -134,6 +67,7 @@ impl Stage {
             gl.buffer_data_size(glow::UNIFORM_BUFFER, size as i32, glow::DYNAMIC_DRAW);
             Ok(Self {
                 programs: [const { None }; 2 * Areas::COUNT],
+                meshes: Meshes::default(),
                 triangles: TriangleBuffers::default(),
                 vertex_array: gl.create_vertex_array().map_err(HostError::Driver)?,
                 lights,
@@ -162,6 +96,19 @@ impl Stage {
         &self.shadows
     }
 
+    /// Prepares a scene at `time`, seconds, for a picture of this shape (`aspect`: width over height).
+    ///
+    /// Meshes are made for shapes that had none in the last setting, nor in one that still exists; the others are the same
+    /// meshes as before, so that what a renderer keeps of them is found again.
+    ///
+    /// # Errors
+    /// As [`describe`](crate::describe); [`HostError::BadRequest`] for an aspect that is not positive and finite.
+    pub fn setting(&mut self, scene: &Scene, time: f64, aspect: f64) -> Result<Setting, HostError> {
+        let setting = Setting::new(scene, time, aspect, &mut self.meshes);
+        self.meshes.trim();
+        setting
+    }
+
     /// Draws the scene without shadows into the stage's own targets, with the normals and ids that
     /// shadows are drawn from if `buffers` says so.
     ///
@@ -176,8 +123,11 @@ impl Stage {
         format: ColorFormat,
         buffers: Buffers,
     ) -> Result<(), HostError> {
+        self.check_size(width, height, samples)?;
+        // SAFETY: whoever made the stage keeps its context current.
+        unsafe { state::reset(&self.gl) };
         self.ensure_targets(width, height, samples, format)?;
-        self.triangles.prepare(&self.gl, setting.primitives.iter().map(|p| &p.shape))?;
+        self.triangles.prepare(&self.gl, setting.moment.primitives.iter().map(|p| &p.shape))?;
         let gl = &self.gl;
         let Some(targets) = &self.targets else { return Ok(()) };
         let areas = Areas::of(&setting.described.lights);
@@ -200,9 +150,7 @@ impl Stage {
             };
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer));
             gl.viewport(0, 0, width as i32, height as i32);
-            gl.disable(glow::BLEND);
             gl.enable(glow::DEPTH_TEST);
-            gl.depth_mask(true);
             gl.depth_func(glow::GREATER);
             gl.cull_face(glow::FRONT); // the far side of each box: seen from inside it too
             gl.clear_buffer_f32_slice(glow::COLOR, 0, &setting.background.extend(1.0).to_array());
@@ -241,7 +189,7 @@ impl Stage {
                     gl.uniform_1_f32(u.near.as_ref(), setting.near as f32);
                     gl.uniform_1_i32(u.light_count.as_ref(), some.len() as i32);
                     gl.uniform_3_f32_slice(u.ambient.as_ref(), &ambient.to_array());
-                    for (i, primitive) in setting.primitives.iter().enumerate() {
+                    for (i, primitive) in setting.moment.primitives.iter().enumerate() {
                         self.draw_primitive(program, primitive, i as u32 + 1, &view);
                     }
                 }
@@ -312,26 +260,55 @@ impl Stage {
 
     /// The frame that antumbra shadows: what [`Self::draw`] has drawn last.
     pub(crate) fn frame<'a>(&self, setting: &'a Setting) -> Option<Frame<'a>> {
-        let targets = self.targets.as_ref()?;
-        let (width, height, samples, _) = targets.key;
+        let (width, height, ..) = self.targets.as_ref()?.key;
         Some(Frame {
             camera: setting.camera,
             viewport: [0, 0, width, height],
-            surface: Surface {
-                depth: targets.depth,
-                samples,
-                depth_format: DepthFormat { bits: 24, float: true, background: 0.0, zero_to_one: true },
-                normals: Some(Normals { texture: targets.normals, space: NormalSpace::View, biased: false }),
-                ids: Some(targets.ids),
-            },
+            surface: self.surface()?,
             lights: &setting.described.lights,
             occluders: &setting.described.occluders,
             meshes: &setting.described.meshes,
             receivers: &setting.described.receivers,
             bounds: &setting.bounds,
-            components: &[],
+            components: &setting.components,
             ambient: setting.ambient,
         })
+    }
+
+    /// What [`Self::draw`] has drawn last, as antumbra reads it: depth, and normals and ids, which are those of the last
+    /// draw with [`Buffers::All`]. `None` before anything was drawn. Good until the next draw.
+    pub fn surface(&self) -> Option<Surface> {
+        let targets = self.targets.as_ref()?;
+        Some(Surface {
+            depth: targets.depth,
+            samples: targets.key.2,
+            depth_format: DepthFormat { bits: 24, float: true, background: 0.0, zero_to_one: true },
+            normals: Some(Normals { texture: targets.normals, space: NormalSpace::View, biased: false }),
+            ids: Some(targets.ids),
+        })
+    }
+
+    /// The colour drawn last, with what shadows were added, one sample a pixel. `None` before anything was drawn. Good
+    /// until the next draw.
+    pub fn color(&mut self) -> Option<Picture> {
+        let targets = self.targets.as_ref()?;
+        let (width, height, ..) = targets.key;
+        let (texture, framebuffer) = match targets.resolved {
+            None => (targets.color, targets.color_only),
+            Some(resolved) => {
+                let gl = &self.gl;
+                // SAFETY: framebuffers of this stage, of one size and format.
+                unsafe {
+                    state::reset(gl);
+                    gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(targets.color_only));
+                    gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(resolved.1));
+                    let (mask, filter) = (glow::COLOR_BUFFER_BIT, glow::NEAREST);
+                    gl.blit_framebuffer(0, 0, width, height, 0, 0, width, height, mask, filter);
+                }
+                resolved
+            }
+        };
+        Some(Picture { texture, framebuffer, width: width as u32, height: height as u32 })
     }
 
     /// Adds shadows to what [`Self::draw`] has drawn.
@@ -346,13 +323,8 @@ impl Stage {
         Ok(())
     }
 
-    fn ensure_targets(
-        &mut self,
-        width: u32,
-        height: u32,
-        samples: u32,
-        format: ColorFormat,
-    ) -> Result<(), HostError> {
+    /// Whether the driver has pictures of this size.
+    pub(crate) fn check_size(&self, width: u32, height: u32, samples: u32) -> Result<(), HostError> {
         let caps = self.shadows.caps();
         if width == 0 || height == 0 || width.max(height) > caps.max_texture_size {
             return Err(HostError::BadRequest(format!(
@@ -366,6 +338,17 @@ impl Stage {
                 caps.max_samples
             )));
         }
+        Ok(())
+    }
+
+    /// Makes targets of this size, which the driver has, unless they are there.
+    fn ensure_targets(
+        &mut self,
+        width: u32,
+        height: u32,
+        samples: u32,
+        format: ColorFormat,
+    ) -> Result<(), HostError> {
         let key = (width as i32, height as i32, samples, format);
         if self.targets.as_ref().is_none_or(|targets| targets.key != key) {
             if let Some(old) = self.targets.take() {
