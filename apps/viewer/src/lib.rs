@@ -12,6 +12,7 @@ mod model;
 mod reference;
 mod remembered;
 mod report;
+mod screenshot;
 mod ui;
 
 pub use error::ViewerError;

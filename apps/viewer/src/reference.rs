@@ -153,6 +153,14 @@ impl Refinement {
         self.shared.changed.notify_one();
     }
 
+    /// Stops until the next request, for when nobody looks. The picture that is there is kept.
+    pub(crate) fn rest(&mut self) {
+        if let Some(wanted) = self.wanted.take() {
+            self.request(wanted.scene, wanted.time, 0, 0);
+            self.wanted = None;
+        }
+    }
+
     /// The newest picture, if there is one yet.
     pub(crate) fn latest(&mut self) -> Option<&Traced> {
         if let Some(new) = lock(&self.shared.outbox).take() {

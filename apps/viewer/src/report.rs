@@ -5,9 +5,9 @@ use egui::accesskit::{NodeId, Rect, TreeUpdate};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::canvas::Side;
 use crate::model::pick::Item;
 use crate::model::{Model, Side as Component};
+use crate::ui::Seen;
 
 /// A control of the interface, as screen readers see it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,7 +42,7 @@ pub(crate) fn controls(update: &TreeUpdate, scale: f64) -> Vec<Control> {
 }
 
 /// The state of the program.
-pub(crate) fn state(model: &Model, sides: &[Side; 2], rect: [i32; 4], window: [u32; 2], scale: f32) -> Value {
+pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2], scale: f32) -> Value {
     let scene = model.scene();
     let moment = scene.moment(model.clock.time);
     let lights: Vec<Value> = moment
@@ -83,7 +83,8 @@ pub(crate) fn state(model: &Model, sides: &[Side; 2], rect: [i32; 4], window: [u
         Component::Right => "right",
     });
     let camera = scene.camera;
-    let sides: Vec<Value> = sides
+    let sides: Vec<Value> = seen
+        .sides
         .iter()
         .take(model.settings.shown().len())
         .map(|side| {
@@ -119,5 +120,9 @@ pub(crate) fn state(model: &Model, sides: &[Side; 2], rect: [i32; 4], window: [u
         "picture": rect,
         "window": window,
         "scale": scale,
+        "still": seen.still,
+        "traced": seen.traced.map(|(samples, target, stale)| json!([samples, target, stale])),
+        "error": seen.error,
+        "controls": seen.controls,
     })
 }

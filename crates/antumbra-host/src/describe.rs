@@ -81,7 +81,8 @@ pub(crate) fn describe_with(
     Ok(described)
 }
 
-fn light(light: &scene::Light) -> Light {
+/// A light of a scene in antumbra's terms.
+pub fn light(light: &scene::Light) -> Light {
     let intensity = (light.color * light.intensity).as_vec3();
     let at = |area| Light::point(light.position, intensity).with_area(area);
     match light.kind {

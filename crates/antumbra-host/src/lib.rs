@@ -23,7 +23,7 @@ mod targets;
 mod timer;
 
 pub use context::{Api, ContextInfo, HeadlessContext};
-pub use describe::{Described, describe};
+pub use describe::{Described, describe, light};
 pub use error::HostError;
 pub use objection::objection;
 pub use picture::{RenderOptions, Rendered};

@@ -58,7 +58,6 @@ pub(crate) struct Side {
 }
 
 /// What a side's picture was drawn of: as long as nothing of this changes it is good.
-#[derive(PartialEq)]
 struct Key {
     scene: Arc<Scene>,
     time: f64,
@@ -68,6 +67,20 @@ struct Key {
     samples: u32,
     /// Of the reference.
     version: u64,
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { scene, time, way, components, size, samples, version } = self;
+        // A scene that is held is never changed, but replaced: where it is says which it is.
+        Arc::ptr_eq(scene, &other.scene)
+            && *time == other.time
+            && *way == other.way
+            && *components == other.components
+            && *size == other.size
+            && *samples == other.samples
+            && *version == other.version
+    }
 }
 
 /// A side's picture.
@@ -111,6 +124,11 @@ impl Canvas {
     /// What the driver says of itself.
     pub(crate) fn info(&self) -> &ContextInfo {
         &self.info
+    }
+
+    /// The most samples a pixel that can be drawn.
+    pub(crate) fn most_samples(&self) -> u32 {
+        self.stage.shadows().caps().max_samples.max(1)
     }
 
     /// Which clock frame times are of.

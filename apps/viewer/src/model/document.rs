@@ -35,6 +35,7 @@ pub(crate) struct Document {
     scene: Arc<Scene>,
     source: Source,
     saved: Arc<Scene>,
+    modified: bool,
     undo: Vec<Arc<Scene>>,
     redo: Vec<Arc<Scene>>,
     /// The step that further edits of its kind go into.
@@ -45,7 +46,8 @@ impl Document {
     /// A scene that nothing was done to yet.
     pub(crate) fn new(scene: Scene, source: Source) -> Self {
         let scene = Arc::new(scene);
-        Self { saved: scene.clone(), scene, source, undo: Vec::new(), redo: Vec::new(), open: None }
+        let saved = scene.clone();
+        Self { saved, scene, source, modified: false, undo: Vec::new(), redo: Vec::new(), open: None }
     }
 
     /// Reads a file.
@@ -68,8 +70,16 @@ impl Document {
 
     /// Whether there is something to save; where the camera is does not count.
     pub(crate) fn is_modified(&self) -> bool {
-        !Arc::ptr_eq(&self.scene, &self.saved)
-            && *self.scene != Scene { camera: self.scene.camera, ..(*self.saved).clone() }
+        self.modified
+    }
+
+    /// Compares with what was saved; the camera aside.
+    fn compare(&mut self) {
+        let (Scene { ambient, image, lights, objects, .. }, saved) = (&*self.scene, &*self.saved);
+        self.modified = *ambient != saved.ambient
+            || *image != saved.image
+            || *lights != saved.lights
+            || *objects != saved.objects;
     }
 
     /// Changes the scene. A change that changes nothing leaves no step.
@@ -88,6 +98,7 @@ impl Document {
             }
         }
         self.redo.clear();
+        self.compare();
     }
 
     /// Ends a step: the next edit is one of its own, of whatever kind.
@@ -119,6 +130,7 @@ impl Document {
             self.look(after.camera);
             self.redo.push(after);
             self.open = None;
+            self.compare();
         }
     }
 
@@ -129,6 +141,7 @@ impl Document {
             self.look(before.camera);
             self.undo.push(before);
             self.open = None;
+            self.compare();
         }
     }
 
@@ -144,6 +157,7 @@ impl Document {
         self.scene.save(path, from.as_deref())?;
         self.source = Source::File(path.to_owned());
         self.saved = self.scene.clone();
+        self.modified = false;
         Ok(())
     }
 }

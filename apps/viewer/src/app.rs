@@ -1,0 +1,469 @@
+//! The window's life: events, frames, and when the next one is due.
+
+use std::io::Write;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use antumbra::glam::DVec2;
+use antumbra_scene::Scene;
+use winit::application::ApplicationHandler;
+use winit::dpi::LogicalSize;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::window::{Fullscreen, Window, WindowId};
+
+use crate::canvas::{Canvas, Side, View};
+use crate::gl_window::GlWindow;
+use crate::model::document::{Document, Source};
+use crate::model::settings::{Antialiasing, Settings};
+use crate::model::{Model, Request};
+use crate::reference::Refinement;
+use crate::remembered::Remembered;
+use crate::ui::{self, Seen};
+use crate::{Options, ViewerError, report};
+
+/// What wakes the loop from outside.
+#[derive(Debug)]
+enum Wake {
+    /// The interface wants a frame after a while.
+    After(Duration),
+    /// The reference has a new picture.
+    Traced,
+}
+
+/// Opens the window and handles its events until it closes.
+///
+/// # Errors
+/// See [`crate::run`].
+pub(crate) fn run(options: Options) -> Result<(), ViewerError> {
+    let remembered = if options.fresh { Remembered::default() } else { Remembered::load() };
+    let model = model(&options, &remembered)?;
+    let events = EventLoop::<Wake>::with_user_event()
+        .build()
+        .map_err(|error| ViewerError::NoDisplay(error.to_string()))?;
+    let proxy = events.create_proxy();
+    let size = options.size.or(remembered.size).unwrap_or([1280, 800]);
+    let mut app = App {
+        json: options.json,
+        model,
+        proxy,
+        size,
+        maximized: remembered.maximized && options.size.is_none(),
+        running: None,
+        failure: None,
+    };
+    let outcome = events.run_app(&mut app).map_err(|error| ViewerError::NoDisplay(error.to_string()));
+    match app.failure.take() {
+        Some(failure) => Err(failure),
+        None => outcome,
+    }
+}
+
+/// The scene and the settings that the program starts with.
+fn model(options: &Options, remembered: &Remembered) -> Result<Model, ViewerError> {
+    let mut settings: Settings = remembered.settings.clone();
+    if let Some(technique) = &options.technique {
+        settings.ways[0] = technique.parse().map_err(ViewerError::Option)?;
+    }
+    if let Some(path) = &options.scene {
+        return Ok(Model::new(Document::load(path)?, settings, options.gallery.clone()));
+    }
+    let first = options.gallery.first();
+    let document = match first {
+        Some(entry) => entry.document()?,
+        None => return Err(ViewerError::Option("there is no gallery; give a scene file".into())),
+    };
+    let mut model = Model::new(document, settings, options.gallery.clone());
+    if let Some(source) = remembered.source() {
+        let wanted = source.clone();
+        model.show(source);
+        if *model.document.source() == wanted {
+            remembered.restore(&mut model);
+        }
+        // A scene that is gone is no reason to begin with a complaint.
+        model.message = None;
+    }
+    Ok(model)
+}
+
+struct App {
+    json: bool,
+    model: Model,
+    proxy: EventLoopProxy<Wake>,
+    size: [u32; 2],
+    maximized: bool,
+    running: Option<Running>,
+    failure: Option<ViewerError>,
+}
+
+/// What exists while there is a window. Fields are dropped in order: the window with its context last.
+struct Running {
+    canvas: Canvas,
+    painter: egui_glow::Painter,
+    state: egui_winit::State,
+    context: egui::Context,
+    refinement: Refinement,
+    window: GlWindow,
+    /// When the next frame is due if nothing happens before.
+    due: Option<Instant>,
+    last_frame: Instant,
+    /// Until when things count as moving.
+    busy_until: Instant,
+    /// What the last frame showed: scene, time, size.
+    last_shown: Option<(Arc<Scene>, f64, [i32; 2])>,
+    /// How long the last frame that moved took.
+    last_cost: Duration,
+    seen: Seen,
+    vsync: bool,
+    hidden: bool,
+    printed: Option<String>,
+}
+
+/// How long after a change more samples are worth their time.
+const SETTLE: Duration = Duration::from_millis(200);
+
+/// The shortest time between two frames where nothing else limits it.
+const FRAME: Duration = Duration::from_micros(16_000);
+
+impl App {
+    fn open(&self, events: &ActiveEventLoop) -> Result<Running, ViewerError> {
+        let attributes = Window::default_attributes()
+            .with_title("antumbra")
+            .with_inner_size(LogicalSize::new(self.size[0], self.size[1]))
+            .with_min_inner_size(LogicalSize::new(480, 320))
+            .with_maximized(self.maximized)
+            .with_visible(false);
+        let window = GlWindow::new(events, attributes)?;
+        let canvas = Canvas::new(&window.gl)?;
+        let painter = egui_glow::Painter::new(window.gl.clone(), "", None, true)
+            .map_err(|error| antumbra_host::HostError::Driver(error.to_string()))?;
+        let context = egui::Context::default();
+        ui::style::apply(&context);
+        if self.json {
+            context.enable_accesskit();
+        }
+        let proxy = self.proxy.clone();
+        // A loop that has ended needs no frames.
+        context.set_request_repaint_callback(move |info| drop(proxy.send_event(Wake::After(info.delay))));
+        let state = egui_winit::State::new(
+            context.clone(),
+            egui::ViewportId::ROOT,
+            events,
+            None,
+            events.system_theme(),
+            Some(painter.max_texture_side()),
+        );
+        let proxy = self.proxy.clone();
+        let refinement = Refinement::new(move || drop(proxy.send_event(Wake::Traced)));
+        window.set_vsync(self.model.settings.vsync);
+        let now = Instant::now();
+        window.window.set_visible(true);
+        window.window.request_redraw();
+        Ok(Running {
+            seen: Seen::new(canvas.info(), canvas.clock()),
+            canvas,
+            painter,
+            state,
+            context,
+            refinement,
+            window,
+            due: None,
+            last_frame: now,
+            busy_until: now,
+            last_shown: None,
+            last_cost: Duration::ZERO,
+            vsync: self.model.settings.vsync,
+            hidden: false,
+            printed: None,
+        })
+    }
+
+    fn fail(&mut self, events: &ActiveEventLoop, failure: ViewerError) {
+        self.failure = Some(failure);
+        self.running = None;
+        events.exit();
+    }
+
+    fn redraw(&mut self, events: &ActiveEventLoop) {
+        let Some(running) = &mut self.running else { return };
+        if let Err(failure) = running.frame(&mut self.model, self.json) {
+            return self.fail(events, failure);
+        }
+        for request in std::mem::take(&mut self.model.requests) {
+            match request {
+                Request::Quit => events.exit(),
+                Request::Fullscreen => running.toggle_fullscreen(),
+                Request::Screenshot(path) => match running.screenshot(&self.model, &path) {
+                    Ok(()) => self.model.say(format!("saved {}", path.display())),
+                    Err(what) => self.model.complain(format!("{}: {what}", path.display())),
+                },
+            }
+            running.window.window.request_redraw();
+        }
+    }
+
+    fn remember(&self) {
+        let Some(running) = &self.running else { return };
+        let window = &running.window.window;
+        let size = window.inner_size().to_logical::<u32>(window.scale_factor());
+        let maximized = window.is_maximized();
+        let size = if maximized || size.width == 0 { self.size } else { [size.width, size.height] };
+        Remembered::of(&self.model, Some(size), maximized).store();
+    }
+}
+
+impl ApplicationHandler<Wake> for App {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.running.is_some() {
+            return;
+        }
+        match self.open(events) {
+            Ok(running) => self.running = Some(running),
+            Err(failure) => self.fail(events, failure),
+        }
+    }
+
+    fn suspended(&mut self, _: &ActiveEventLoop) {
+        // The surface is gone, and on some systems the context with it.
+        self.remember();
+        self.running = None;
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(running) = &mut self.running else { return };
+        let response = running.state.on_window_event(&running.window.window, &event);
+        if response.repaint {
+            running.window.window.request_redraw();
+        }
+        match event {
+            WindowEvent::CloseRequested => {
+                self.model.apply(crate::model::command::Command::Quit);
+                running.window.window.request_redraw();
+            }
+            WindowEvent::Resized(_) => {
+                running.window.resize();
+                running.window.window.request_redraw();
+            }
+            WindowEvent::Occluded(hidden) => {
+                running.hidden = hidden;
+                running.window.window.request_redraw();
+            }
+            WindowEvent::RedrawRequested => self.redraw(events),
+            _ => {}
+        }
+    }
+
+    fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
+        let Some(running) = &mut self.running else { return };
+        match wake {
+            Wake::After(delay) if delay.is_zero() => running.window.window.request_redraw(),
+            Wake::After(delay) => running.wake_at(Instant::now().checked_add(delay)),
+            Wake::Traced => running.window.window.request_redraw(),
+        }
+    }
+
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(running)) = (cause, &mut self.running) {
+            running.due = None;
+            running.window.window.request_redraw();
+        }
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        let due = self.running.as_ref().and_then(|running| running.due);
+        events.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+    }
+
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        self.remember();
+        self.running = None;
+    }
+}
+
+impl Running {
+    fn wake_at(&mut self, when: Option<Instant>) {
+        self.due = match (self.due, when) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        };
+    }
+
+    /// One frame: the interface, which may change the model; the scene; and both into the window.
+    fn frame(&mut self, model: &mut Model, json: bool) -> Result<(), ViewerError> {
+        let Some(size) = self.window.size().filter(|_| !self.hidden) else { return Ok(()) };
+        let now = Instant::now();
+        let elapsed = now.duration_since(self.last_frame);
+        self.last_frame = now;
+        if model.is_moving() {
+            model.clock.advance(elapsed.as_secs_f64());
+        }
+        if self.vsync != model.settings.vsync {
+            self.vsync = model.settings.vsync;
+            self.window.set_vsync(self.vsync);
+        }
+        if (self.context.zoom_factor() - model.settings.zoom).abs() > 1e-3 {
+            self.context.set_zoom_factor(model.settings.zoom);
+        }
+        let input = self.state.take_egui_input(&self.window.window);
+        let mut picture = egui::Rect::ZERO;
+        let output = self.context.run_ui(input, |root| picture = ui::show(root, model, &mut self.seen));
+        let scale = output.pixels_per_point;
+        self.state.handle_platform_output(&self.window.window, {
+            let mut platform = output.platform_output;
+            if let Some(update) = platform.accesskit_update.take().filter(|_| json) {
+                self.seen.controls = report::controls(&update, 1.0);
+            }
+            platform
+        });
+        let rect = pixels(picture, scale, size);
+        model.aspect = f64::from(rect[2].max(1)) / f64::from(rect[3].max(1));
+        self.title(model);
+
+        let sides = self.draw(model, rect, scale, size)?;
+        for (id, deltas) in output.textures_delta.set {
+            for delta in deltas {
+                self.painter.set_texture(id, &delta);
+            }
+        }
+        let primitives = self.context.tessellate(output.shapes, scale);
+        self.painter.paint_primitives(size, scale, &primitives);
+        for id in output.textures_delta.free {
+            self.painter.free_texture(id);
+        }
+        self.window.window.pre_present_notify();
+        self.window.swap()?;
+        if sides != self.seen.sides {
+            // What is said of a picture is said in the frame after it.
+            self.seen.sides = sides;
+            self.window.window.request_redraw();
+        }
+        if json {
+            self.print(model, rect, size, scale)?;
+        }
+        if model.is_moving() {
+            self.wake_at(Some(now + FRAME));
+        } else if now < self.busy_until {
+            self.wake_at(Some(self.busy_until));
+        }
+        Ok(())
+    }
+
+    /// The scene in the window's framebuffer.
+    fn draw(&mut self, model: &Model, rect: [i32; 4], scale: f32, size: [u32; 2]) -> Result<[Side; 2], ViewerError> {
+        let now = self.last_frame;
+        let shown = (model.scene().clone(), model.clock.time, [rect[2], rect[3]]);
+        let same = self.last_shown.as_ref().is_some_and(|(scene, time, size)| {
+            Arc::ptr_eq(scene, &shown.0) && *time == shown.1 && *size == shown.2
+        });
+        if !same {
+            self.busy_until = now + SETTLE;
+            self.last_shown = Some(shown);
+        }
+        let still = now >= self.busy_until && !model.is_moving();
+        if model.needs_reference() && rect[2] > 0 && rect[3] > 0 {
+            let (width, height) = (rect[2] as u32, rect[3] as u32);
+            self.refinement.request(model.scene().clone(), model.clock.time, width, height);
+        } else {
+            self.refinement.rest();
+        }
+        let strokes = ui::overlay::strokes(model, DVec2::new(f64::from(rect[2]), f64::from(rect[3])));
+        let samples = self.samples(model, still);
+        let view = View {
+            scene: model.scene(),
+            time: model.clock.time,
+            settings: &model.settings,
+            components: &model.components,
+            rect,
+            samples,
+            strokes: &strokes,
+            scale,
+            traced: if model.needs_reference() { self.refinement.latest() } else { None },
+            measure: model.settings.timing,
+        };
+        self.painter.clear(size, [0.0, 0.0, 0.0, 1.0]);
+        let start = Instant::now();
+        let sides = self.canvas.draw(&view)?;
+        self.seen.traced = view.traced.map(|t| (t.samples, t.target, t.stale));
+        if !still {
+            self.last_cost = start.elapsed();
+        }
+        self.seen.frame(model, &sides, still);
+        if still && self.seen.wants_error(model) {
+            self.seen.error = self.canvas.error(model.scene().image.exposure as f32);
+        }
+        Ok(sides)
+    }
+
+    /// Samples a pixel.
+    fn samples(&self, model: &Model, still: bool) -> u32 {
+        let most = self.canvas.most_samples();
+        match model.settings.antialiasing {
+            Antialiasing::Samples(n) => n.clamp(1, most),
+            // A software renderer takes as many times as long.
+            Antialiasing::Auto if self.canvas.info().software => {
+                if still && self.last_cost < Duration::from_millis(150) { 4.min(most) } else { 1 }
+            }
+            Antialiasing::Auto => if still { 8.min(most) } else { 4.min(most) },
+        }
+    }
+
+    fn title(&self, model: &Model) {
+        let mark = if model.document.is_modified() { "*" } else { "" };
+        let title = format!("{}{mark} – antumbra", model.document.source().name());
+        if self.window.window.title() != title {
+            self.window.window.set_title(&title);
+        }
+    }
+
+    fn toggle_fullscreen(&self) {
+        let window = &self.window.window;
+        window.set_fullscreen(window.fullscreen().is_none().then_some(Fullscreen::Borderless(None)));
+    }
+
+    /// Writes what the picture shows.
+    fn screenshot(&mut self, model: &Model, path: &std::path::Path) -> Result<(), String> {
+        let Some((_, _, size)) = &self.last_shown else { return Err("nothing was drawn yet".into()) };
+        let view = View {
+            scene: model.scene(),
+            time: model.clock.time,
+            settings: &model.settings,
+            components: &model.components,
+            rect: [0, 0, size[0], size[1]],
+            samples: self.samples(model, true),
+            strokes: &ui::overlay::strokes(model, DVec2::new(f64::from(size[0]), f64::from(size[1]))),
+            scale: self.context.pixels_per_point(),
+            traced: if model.needs_reference() { self.refinement.latest() } else { None },
+            measure: false,
+        };
+        let (width, height, pixels) = self.canvas.screenshot(&view).map_err(|error| error.to_string())?;
+        crate::screenshot::write(path, width, height, &pixels).map_err(|error| error.to_string())
+    }
+
+    /// Prints the state if it is not what was printed last.
+    fn print(&mut self, model: &Model, rect: [i32; 4], size: [u32; 2], scale: f32) -> Result<(), ViewerError> {
+        let top = size[1] as i32 - rect[1] - rect[3];
+        let state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
+        let line = state.to_string();
+        if self.printed.as_ref() == Some(&line) {
+            return Ok(());
+        }
+        let mut out = std::io::stdout().lock();
+        writeln!(out, "{line}").and_then(|()| out.flush()).map_err(ViewerError::Stdout)?;
+        self.printed = Some(line);
+        Ok(())
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.painter.destroy();
+    }
+}
+
+/// A rectangle of the interface in pixels from the bottom left of a window of this size.
+fn pixels(rect: egui::Rect, scale: f32, size: [u32; 2]) -> [i32; 4] {
+    let [w, h] = size.map(|side| side as f32);
+    let (left, right) = ((rect.left() * scale).round().clamp(0.0, w), (rect.right() * scale).round().clamp(0.0, w));
+    let (top, bottom) = ((rect.top() * scale).round().clamp(0.0, h), (rect.bottom() * scale).round().clamp(0.0, h));
+    [left, h - bottom, right - left, bottom - top].map(|x| x.max(0.0) as i32)
+}

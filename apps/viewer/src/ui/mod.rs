@@ -1,0 +1,86 @@
+//! The interface: what is round the picture and over it, and what pointer and keys do.
+
+mod keys;
+mod menu;
+pub(crate) mod overlay;
+mod panel;
+mod picture;
+mod status;
+pub(crate) mod style;
+
+use antumbra_host::ContextInfo;
+use egui::{CentralPanel, Frame, Panel, Rect, Ui};
+
+use crate::canvas::Side;
+use crate::model::Model;
+use crate::model::pick::Grip;
+use crate::model::settings::Layout;
+use crate::report::Control;
+
+/// What the interface knows besides the model: what was seen in the frames before, and what the pointer holds.
+pub(crate) struct Seen {
+    /// What became of the sides.
+    pub(crate) sides: [Side; 2],
+    /// Whether nothing moves, and the picture is as good as it gets.
+    pub(crate) still: bool,
+    /// Rays a pixel of the reference, how many there will be, and whether it is of something older.
+    pub(crate) traced: Option<(u32, u32, bool)>,
+    /// Root mean square and largest difference of the two sides.
+    pub(crate) error: Option<[f32; 2]>,
+    /// The named controls of the last frame, where somebody asks for them.
+    pub(crate) controls: Vec<Control>,
+    /// The driver's name.
+    pub(crate) renderer: String,
+    /// Which clock frame times are of.
+    pub(crate) clock: &'static str,
+    /// What the pointer drags.
+    grip: Option<Grip>,
+    /// Whether it drags the divider.
+    dividing: bool,
+}
+
+impl Seen {
+    /// Nothing was seen yet.
+    pub(crate) fn new(info: &ContextInfo, clock: &'static str) -> Self {
+        Self {
+            sides: Default::default(),
+            still: false,
+            traced: None,
+            error: None,
+            controls: Vec::new(),
+            renderer: info.renderer.clone(),
+            clock,
+            grip: None,
+            dividing: false,
+        }
+    }
+
+    /// Takes note of a frame.
+    pub(crate) fn frame(&mut self, _model: &Model, sides: &[Side; 2], still: bool) {
+        self.still = still;
+        if sides.iter().any(|side| side.fresh) {
+            self.error = None;
+        }
+    }
+
+    /// Whether the error of one side against the other is asked for and not known.
+    pub(crate) fn wants_error(&self, model: &Model) -> bool {
+        model.settings.layout == Layout::Difference && self.error.is_none()
+    }
+}
+
+/// Shows everything and does what the user asks; where the picture is, points.
+pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
+    let context = root.ctx().clone();
+    if !context.input(|input| input.pointer.any_down() || !input.keys_down.is_empty()) {
+        model.document.end_stroke();
+    }
+    keys::press(&context, model);
+    keys::drop_files(&context, model);
+    Panel::top("menu").show(root, |ui| menu::bar(ui, model));
+    Panel::bottom("status").show(root, |ui| status::line(ui, model, seen));
+    if model.settings.panel {
+        Panel::right("panel").default_size(300.0).min_size(240.0).show(root, |ui| panel::show(ui, model, seen));
+    }
+    CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner
+}

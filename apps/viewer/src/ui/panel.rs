@@ -1,0 +1,136 @@
+//! The panel at the side.
+
+use antumbra::technique::Allowed;
+use antumbra::{Pattern, Soft, Technique};
+use egui::{CollapsingHeader, ComboBox, DragValue, ScrollArea, Slider, Ui};
+
+use super::Seen;
+use crate::model::Model;
+use crate::model::settings::{ERROR_SCALES, Layout};
+use crate::model::way::Way;
+
+/// Everything in it.
+pub(crate) fn show(ui: &mut Ui, model: &mut Model, _seen: &Seen) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        CollapsingHeader::new("Shadows").default_open(true).show(ui, |ui| shadows(ui, model));
+    });
+}
+
+fn shadows(ui: &mut Ui, model: &mut Model) {
+    let settings = &mut model.settings;
+    ui.horizontal(|ui| {
+        for layout in Layout::ALL {
+            ui.selectable_value(&mut settings.layout, layout, layout.name());
+        }
+    });
+    let count = settings.shown().len();
+    for (i, way) in settings.ways.iter_mut().take(count).enumerate() {
+        let label = match (settings.layout, i) {
+            (Layout::Single, _) => "technique",
+            (Layout::Split, 0) => "left",
+            (Layout::Split, _) => "right",
+            (Layout::Difference, 0) => "error of",
+            (Layout::Difference, _) => "against",
+        };
+        ui.push_id(i, |ui| self::way(ui, label, way));
+    }
+    if settings.layout == Layout::Difference {
+        ui.horizontal(|ui| {
+            let label = ui.label("brightest");
+            ui.add(Slider::new(&mut settings.error_scale, ERROR_SCALES).logarithmic(true)).labelled_by(label.id);
+        });
+    }
+}
+
+/// A way with its options.
+fn way(ui: &mut Ui, label: &str, way: &mut Way) {
+    ui.horizontal(|ui| {
+        let label = ui.label(label);
+        let combo = ComboBox::from_id_salt("way").selected_text(way.name()).show_ui(ui, |ui| {
+            for other in Way::all() {
+                let chosen = other.name() == way.name();
+                if ui.selectable_label(chosen, other.name()).on_hover_text(other.summary()).clicked() && !chosen {
+                    *way = match (other, *way) {
+                        (Way::Technique(technique, _), Way::Technique(_, soft)) => Way::Technique(technique, soft),
+                        (other, _) => other,
+                    };
+                }
+            }
+        });
+        combo.response.labelled_by(label.id).on_hover_text(way.summary());
+    });
+    if let Way::Technique(technique, soft) = way {
+        self::soft(ui, soft);
+        options(ui, technique);
+    }
+}
+
+/// How lights with an area are drawn.
+fn soft(ui: &mut Ui, soft: &mut Soft) {
+    ui.horizontal(|ui| {
+        let label = ui.label("area lights");
+        let name = match soft {
+            Soft::Native => "its own way",
+            Soft::Samples { pattern: Pattern::Spread, .. } => "samples",
+            Soft::Samples { pattern: Pattern::Row, .. } => "samples in a row",
+        };
+        let count = match *soft {
+            Soft::Native => 16,
+            Soft::Samples { count, .. } => count,
+        };
+        let combo = ComboBox::from_id_salt("soft").selected_text(name).show_ui(ui, |ui| {
+            ui.selectable_value(soft, Soft::Native, "its own way");
+            ui.selectable_value(soft, Soft::Samples { count, pattern: Pattern::Spread }, "samples");
+            ui.selectable_value(soft, Soft::Samples { count, pattern: Pattern::Row }, "samples in a row");
+        });
+        combo.response.labelled_by(label.id);
+        if let Soft::Samples { count, .. } = soft {
+            let value = DragValue::new(count).range(1..=256);
+            ui.add(value).labelled_by(label.id);
+        }
+    });
+}
+
+/// The options of a technique, whichever it is.
+fn options(ui: &mut Ui, technique: &mut Technique) {
+    for option in technique.options() {
+        let mut set = |text: String| {
+            // What the controls offer is what the option takes.
+            if let Err(error) = technique.set(&option.key, &text) {
+                log::error!("{error}");
+            }
+        };
+        ui.horizontal(|ui| {
+            let label = ui.label(&option.key).on_hover_text(option.help);
+            match option.allowed {
+                Allowed::Switch => {
+                    let mut on = option.value == "on";
+                    if ui.checkbox(&mut on, "").labelled_by(label.id).changed() {
+                        set(if on { "on" } else { "off" }.into());
+                    }
+                }
+                Allowed::Choice(choices) => {
+                    let id = ui.id().with(&option.key);
+                    let combo = ComboBox::from_id_salt(id).selected_text(&option.value).show_ui(ui, |ui| {
+                        for choice in choices {
+                            let chosen = option.value == choice.name;
+                            if ui.selectable_label(chosen, choice.name).on_hover_text(choice.help).clicked() {
+                                set(choice.name.into());
+                            }
+                        }
+                    });
+                    combo.response.labelled_by(label.id);
+                }
+                Allowed::Number { low, high, whole } => {
+                    let mut value: f64 = option.value.parse().unwrap_or(low);
+                    let slider = Slider::new(&mut value, low..=high).logarithmic(high > 100.0);
+                    let slider = if whole { slider.integer() } else { slider };
+                    if ui.add(slider).labelled_by(label.id).changed() {
+                        set(if whole { format!("{}", value.round() as i64) } else { format!("{}", value as f32) });
+                    }
+                }
+                _ => {}
+            }
+        });
+    }
+}

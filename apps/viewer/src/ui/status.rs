@@ -1,0 +1,39 @@
+//! The line at the bottom.
+
+use egui::{Align, Color32, Layout, RichText, Ui};
+
+use super::Seen;
+use crate::model::Model;
+
+/// What was said last, and what the techniques did.
+pub(crate) fn line(ui: &mut Ui, model: &Model, seen: &Seen) {
+    ui.horizontal(|ui| {
+        match &model.message {
+            Some(message) if message.is_error => {
+                ui.label(RichText::new(&message.text).color(Color32::from_rgb(255, 110, 90)));
+            }
+            Some(message) => {
+                ui.label(&message.text);
+            }
+            None => {
+                ui.label(RichText::new("F1 for the keys").weak());
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(RichText::new(&seen.renderer).weak());
+            if let Some([rms, largest]) = seen.error {
+                ui.separator();
+                ui.label(format!("error: {rms:.4} RMS, {largest:.3} at most"));
+            }
+            if let Some((samples, target, stale)) = seen.traced {
+                ui.separator();
+                let of = if stale { ", of what was" } else { "" };
+                ui.label(format!("reference: {samples} of {target} rays a pixel{of}"));
+            }
+            if let Some(stats) = seen.sides[0].stats {
+                ui.separator();
+                ui.label(format!("{} of {} pairs of light and occluder drawn", stats.polygons.min(stats.pairs), stats.pairs));
+            }
+        });
+    });
+}
