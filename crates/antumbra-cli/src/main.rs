@@ -1,4 +1,4 @@
-//! `antumbra`, the command-line program: renders scene files with exact shadows, traces their ground truth, checks
+//! `antumbra`, the command-line program: renders and animates scene files with exact shadows, traces their ground truth, checks
 //! them and tells what the machine's OpenGL can do. It is built on the public interfaces of the other crates alone.
 //!
 //! Exit code 0, or 2 with exactly one line on standard error that begins with `error:`.
@@ -14,6 +14,7 @@ mod output;
 mod progress;
 mod report;
 mod technique;
+mod timeline;
 mod timing;
 
 use std::process::ExitCode;

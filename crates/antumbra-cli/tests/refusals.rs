@@ -193,7 +193,7 @@ fn too_many_visibilities() {
 #[test]
 fn help_and_version_are_no_errors() {
     let place = Place::new();
-    for command in ["demo", "render", "trace", "check", "compare", "bench", "info"] {
+    for command in ["demo", "render", "animate", "trace", "check", "compare", "bench", "info"] {
         let help = place.run([command, "--help"]);
         assert_eq!(help.status.code(), Some(0), "help is no error");
         let text = stdout(&help);

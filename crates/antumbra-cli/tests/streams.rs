@@ -4,10 +4,11 @@
 mod common;
 
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{Place, assert_refused, stderr};
+use common::{Place, SCENE, assert_refused, stderr};
 
 #[test]
 fn a_reader_that_went_away_is_no_error() {
@@ -47,22 +48,20 @@ fn a_closed_standard_error_is_no_panic() {
     assert_eq!(status.code(), Some(2), "code 2 although nobody reads why");
 }
 
-#[test]
-fn an_interrupt_leaves_nothing() {
-    let place = Place::new();
+/// Interrupts the program once there is a temporary file in a directory of its place.
+fn interrupted(place: &Place, arguments: &[&str], directory: &str) {
     let mut child = place
-        .command(["demo", "-o", "pictures", "--backend", "cpu", "--size", "1280x720"])
+        .command(arguments)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
         .expect("the program starts");
-    // Wait for the first picture to lie there under its temporary name.
     let start = Instant::now();
-    loop {
-        let waiting = fs::read_dir(place.file("pictures")).is_ok_and(|mut entries| entries.next().is_some());
-        if waiting {
-            break;
-        }
+    let temporary =
+        |name: &std::ffi::OsStr| Path::new(name).extension().is_some_and(|extension| extension == "tmp");
+    while !fs::read_dir(place.file(directory))
+        .is_ok_and(|entries| entries.flatten().any(|entry| temporary(&entry.file_name())))
+    {
         assert!(child.try_wait().expect("a child").is_none(), "still at work");
         assert!(start.elapsed() < Duration::from_secs(120), "the first picture takes seconds");
         std::thread::sleep(Duration::from_millis(5));
@@ -72,5 +71,15 @@ fn an_interrupt_leaves_nothing() {
     assert!(killed.success(), "the signal was sent");
     let status = child.wait().expect("a child");
     assert_eq!(status.code(), Some(130), "the code of an interrupt");
-    assert_eq!(place.entries(), ["scene.toml"], "neither pictures nor temporary files nor the directory");
+    assert_eq!(place.entries(), ["scene.toml"], "neither files nor temporary ones nor a directory");
+}
+
+#[test]
+fn an_interrupt_leaves_nothing() {
+    let place = Place::new();
+    interrupted(&place, &["demo", "-o", "pictures", "--backend", "cpu", "--size", "1280x720"], "pictures");
+    let motion = "motion = { type = \"path\", points = [[0, 1, 0], [1, 1, 0]], period = 50 }";
+    place.write("scene.toml", &format!("{SCENE}{motion}\n"));
+    let animate = ["animate", "scene.toml", "-o", "a.apng", "--technique", "raytraced", "--size", "640x480"];
+    interrupted(&place, &animate, ".");
 }

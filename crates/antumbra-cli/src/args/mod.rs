@@ -8,8 +8,11 @@ use std::path::PathBuf;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 
-pub(crate) use values::{MAX_SIDE, Size};
-use values::{parse_frames, parse_msaa, parse_samples, parse_size, parse_time};
+pub(crate) use values::{FPS, MAX_ANIMATION_FRAMES, MAX_SIDE, Size};
+use values::{
+    parse_animation_frames, parse_duration, parse_fps, parse_frames, parse_msaa, parse_samples, parse_size,
+    parse_time,
+};
 
 use antumbra::Soft;
 
@@ -29,6 +32,7 @@ use crate::technique::Technique;
         antumbra                                           the gallery, as PNG, in antumbra-demo/\n  \
         antumbra render scene.toml -o picture.png          one scene with OpenGL\n  \
         antumbra trace scene.toml -o truth.exr             the same, ray traced on the CPU\n  \
+        antumbra animate scene.toml -o loop.apng           one round of all that moves\n  \
         antumbra check scene.toml                          is the scene file right, what is in it\n  \
         antumbra compare scene.toml                        every technique beside the truth, as a page\n  \
         antumbra bench                                     how long every technique takes, as charts\n  \
@@ -59,6 +63,15 @@ pub(crate) enum Command {
         antumbra render scene.toml -o picture.png --technique NAME:key=value\n  \
         antumbra render scene.toml -o picture.png --backend cpu")]
     Render(RenderArgs),
+    /// Render one round of a scene's motions, as an animated PNG
+    #[command(after_help = "Examples:\n  \
+        antumbra animate scene.toml -o loop.apng\n  \
+        antumbra animate scene.toml -o loop.apng --size 480x270 --fps 30\n  \
+        antumbra animate scene.toml -o loop.png --frames 48    a whole round in 48 frames\n  \
+        antumbra animate scene.toml -o part.apng --from 2.5 --duration 3\n  \
+        antumbra animate scene.toml -o truth.apng --technique raytraced --size 240x135\n\n\
+        Web browsers play the file; what knows no animation shows its first frame.")]
+    Animate(AnimateArgs),
     /// Ray trace a scene on the CPU: the ground truth
     #[command(after_help = "Examples:\n  \
         antumbra trace scene.toml -o truth.png\n  \
@@ -183,12 +196,9 @@ pub(crate) struct PictureArgs {
     pub(crate) json: bool,
 }
 
-/// Arguments of `antumbra render`.
+/// How shadows are found and what they look like: what pictures and animations have in common.
 #[derive(Debug, clap::Args)]
-pub(crate) struct RenderArgs {
-    /// Scene, moment, size and files.
-    #[command(flatten)]
-    pub(crate) picture: PictureArgs,
+pub(crate) struct LookArgs {
     #[arg(long, value_name = "NAME[:key=value..]", value_parser = Technique::parse,
         help = Technique::help(), long_help = Technique::long_help())]
     pub(crate) technique: Option<Technique>,
@@ -207,9 +217,53 @@ pub(crate) struct RenderArgs {
     /// Samples a pixel of multisampling: 1, 2, 4, 8, ...; with the CPU, rays a pixel
     #[arg(long, value_name = "N", value_parser = parse_msaa, allow_hyphen_values = true)]
     pub(crate) msaa: Option<u32>,
+}
+
+/// Arguments of `antumbra render`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct RenderArgs {
+    /// Scene, moment, size and files.
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+    /// How.
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
     /// What draws: gl (OpenGL) or cpu (the ray tracer)
     #[arg(long, value_enum, value_name = "gl|cpu", hide_possible_values = true)]
     pub(crate) backend: Option<Backend>,
+}
+
+/// Arguments of `antumbra animate`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct AnimateArgs {
+    /// The scene file
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+    /// The animation: .apng or .png, both animated PNG (8-bit sRGB)
+    #[arg(short, long, value_name = "OUT.apng")]
+    pub(crate) output: PathBuf,
+    /// How many frames: as many as --fps makes of the duration when left out; without --fps they are spread over the
+    /// duration
+    #[arg(long, value_name = "N", value_parser = parse_animation_frames, allow_hyphen_values = true)]
+    pub(crate) frames: Option<u32>,
+    /// Frames a second; 20 when left out
+    #[arg(long, value_name = "F", value_parser = parse_fps, allow_hyphen_values = true)]
+    pub(crate) fps: Option<f64>,
+    /// The moment of the first frame, seconds
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time, default_value = "0", allow_hyphen_values = true)]
+    pub(crate) from: f64,
+    /// How long it is; when left out, until all motions repeat, or the longest one if that takes over a minute
+    #[arg(long, value_name = "SECONDS", value_parser = parse_duration, allow_hyphen_values = true)]
+    pub(crate) duration: Option<f64>,
+    /// Size in pixels instead of the scene's own
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
+    pub(crate) size: Option<Size>,
+    /// How.
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
+    /// Print one JSON object on standard output instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Arguments of `antumbra trace`.

@@ -15,6 +15,13 @@ const MAX_MSAA: u32 = 64;
 /// The most frames to time; a thousand know a median better than a machine keeps still.
 const MAX_FRAMES: u32 = 1_000;
 
+/// The most frames of an animation: eight minutes at 20 a second.
+pub(crate) const MAX_ANIMATION_FRAMES: u32 = 10_000;
+
+/// Frames a second of an animation. What plays them shows none for less than a hundredth of a second, and the file
+/// none for longer than 65535 s.
+pub(crate) const FPS: std::ops::RangeInclusive<f64> = 1e-3..=100.0;
+
 /// Width and height of a picture, pixels; each in 1 to [`MAX_SIDE`], together at most [`MAX_PIXELS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Size {
@@ -93,6 +100,28 @@ pub(super) fn parse_frames(text: &str) -> Result<u32, String> {
     match text.parse::<u32>() {
         Ok(frames) if (1..=MAX_FRAMES).contains(&frames) => Ok(frames),
         _ => Err(format!("not a number of frames; give a whole number from 1 to {MAX_FRAMES}")),
+    }
+}
+
+pub(super) fn parse_animation_frames(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(frames) if (1..=MAX_ANIMATION_FRAMES).contains(&frames) => Ok(frames),
+        _ => Err(format!("not a number of frames; give a whole number from 1 to {MAX_ANIMATION_FRAMES}")),
+    }
+}
+
+pub(super) fn parse_fps(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(fps) if FPS.contains(&fps) => Ok(fps),
+        _ => Err(format!("not a frame rate; give frames a second, from {} to {}", FPS.start(), FPS.end())),
+    }
+}
+
+pub(super) fn parse_duration(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        // As the periods of motions.
+        Ok(duration) if (1e-3..=1e9).contains(&duration) => Ok(duration),
+        _ => Err("not a duration; give seconds, from 1e-3 to 1e9, such as 2.5".to_owned()),
     }
 }
 

@@ -1,10 +1,12 @@
 //! The commands, one file each.
 
+mod animate;
 mod bench;
 mod check;
 mod compare;
 mod demo;
 mod info;
+mod look;
 mod render;
 mod trace;
 
@@ -31,6 +33,7 @@ pub(crate) fn run(cli: Cli) -> Result<(), CliError> {
     match cli.command.unwrap_or_else(|| Command::Demo(DemoArgs::default())) {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Animate(arguments) => animate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),

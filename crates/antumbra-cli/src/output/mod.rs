@@ -1,6 +1,7 @@
-//! Picture files: which they are ([`plan`]), what is in them ([`png`], [`exr`]), and how they come to be at once or
+//! Picture files: which they are ([`plan`]), what is in them ([`png`], [`apng`], [`exr`]), and how they come to be at once or
 //! not at all ([`staged`]).
 
+pub(crate) mod apng;
 pub(crate) mod exr;
 pub(crate) mod plan;
 pub(crate) mod png;

@@ -37,11 +37,11 @@ impl Plan {
         visibility: Option<&Path>,
         lights: &[Light],
     ) -> Result<Self, CliError> {
-        let format = format(output)?;
-        let picture = resolve_link(output);
-        check_file(&picture)?;
-        refuse_scene(scene, &picture)?;
-        probe_directory(parent(&picture))?;
+        let format = match extension(output, ["png", "exr"])? {
+            "exr" => Format::Exr,
+            _ => Format::Png,
+        };
+        let picture = destination(scene, output)?;
         let Some(directory) = visibility else {
             return Ok(Self { picture, format, visibility: None });
         };
@@ -128,20 +128,40 @@ pub(crate) fn check_file(path: &Path) -> Result<(), CliError> {
     }
 }
 
-fn format(output: &Path) -> Result<Format, CliError> {
+/// The extension of `output`, in lower case: one of two.
+///
+/// # Errors
+/// [`CliError::Output`] for any other, and for a directory.
+pub(crate) fn extension(output: &Path, known: [&'static str; 2]) -> Result<&'static str, CliError> {
+    let [first, second] = known;
     if output.is_dir() {
-        return Err(CliError::output(output, "is a directory; name a file, such as picture.png"));
+        return Err(CliError::output(
+            output,
+            format!("is a directory; name a file, such as picture.{first}"),
+        ));
     }
     if output.as_os_str().as_encoded_bytes().last().is_some_and(|&byte| std::path::is_separator(byte.into()))
     {
-        return Err(CliError::output(output, "names a directory; name a file, such as picture.png"));
+        let what = format!("names a directory; name a file, such as picture.{first}");
+        return Err(CliError::output(output, what));
     }
     let extension = output.extension().map(|extension| extension.to_ascii_lowercase());
-    match extension.as_ref().and_then(|extension| extension.to_str()) {
-        Some("png") => Ok(Format::Png),
-        Some("exr") => Ok(Format::Exr),
-        _ => Err(CliError::output(output, "is in no format known here; end the name in .png or .exr")),
-    }
+    known.into_iter().find(|known| extension.as_ref().is_some_and(|it| it == known)).ok_or_else(|| {
+        let what = format!("is in no format known here; end the name in .{first} or .{second}");
+        CliError::output(output, what)
+    })
+}
+
+/// The file that writing to `output` makes or replaces, for what is made of the scene file `scene`.
+///
+/// # Errors
+/// [`CliError::Output`] with what is in the way, as [`Plan::new`].
+pub(crate) fn destination(scene: &Path, output: &Path) -> Result<PathBuf, CliError> {
+    let file = resolve_link(output);
+    check_file(&file)?;
+    refuse_scene(scene, &file)?;
+    probe_directory(parent(&file))?;
+    Ok(file)
 }
 
 /// A link is followed, so that the file it points to is replaced and not the link.

@@ -4,12 +4,15 @@ use std::io::{self, Write};
 
 use super::Picture;
 
-/// Writes a picture: exposure, clamp to [0, 1], sRGB encoding, rounding to the nearest of 256 levels. Not-a-number
-/// becomes 0.
+/// Writes a picture, as its [`levels`].
 pub(crate) fn write_picture(picture: &Picture, to: &mut impl Write) -> io::Result<()> {
-    let bytes: Vec<u8> =
-        (0..picture.pixels.len()).flat_map(|index| picture.exposed(index).map(encode_srgb)).collect();
-    write_rgb8(picture.width as usize, picture.height as usize, &bytes, to)
+    write_rgb8(picture.width as usize, picture.height as usize, &levels(picture), to)
+}
+
+/// A picture as 8-bit sRGB levels, three bytes a pixel, rows top to bottom: exposure, clamp to [0, 1], sRGB encoding,
+/// rounding to the nearest of 256 levels. Not-a-number becomes 0.
+pub(crate) fn levels(picture: &Picture) -> Vec<u8> {
+    (0..picture.pixels.len()).flat_map(|index| picture.exposed(index).map(encode_srgb)).collect()
 }
 
 /// Writes one light's visibility, rows top to bottom: 0 to 1 becomes 0 to 65535.
@@ -30,21 +33,30 @@ pub(crate) fn write_visibility(
 /// an error.
 pub(crate) fn write_rgb8(width: usize, height: usize, bytes: &[u8], to: &mut impl Write) -> io::Result<()> {
     let side = |side: usize| u32::try_from(side).map_err(io::Error::other);
-    let mut encoder = png::Encoder::new(to, side(width)?, side(height)?);
+    write(rgb8(to, side(width)?, side(height)?), bytes)
+}
+
+/// An encoder of 8-bit sRGB levels, three bytes a pixel.
+pub(super) fn rgb8<W: Write>(to: W, width: u32, height: u32) -> png::Encoder<'static, W> {
+    let mut encoder = png::Encoder::new(to, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-    write(encoder, bytes)
+    encoder
 }
 
 fn write<W: Write>(encoder: png::Encoder<W>, bytes: &[u8]) -> io::Result<()> {
-    let into_io = |error: png::EncodingError| match error {
-        png::EncodingError::IoError(error) => error,
-        other => io::Error::other(other),
-    };
     let mut writer = encoder.write_header().map_err(into_io)?;
     writer.write_image_data(bytes).map_err(into_io)?;
     writer.finish().map_err(into_io)
+}
+
+/// What the encoder says, as an error of writing.
+pub(super) fn into_io(error: png::EncodingError) -> io::Error {
+    match error {
+        png::EncodingError::IoError(error) => error,
+        other => io::Error::other(other),
+    }
 }
 
 /// A visibility in [0, 1] as one of 65536 levels, rounded to the nearest. Values outside are clamped; not-a-number

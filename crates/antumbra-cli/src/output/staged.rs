@@ -88,13 +88,18 @@ impl Staged {
     /// Writes one file under a temporary name.
     ///
     /// # Errors
-    /// [`CliError::Output`] where it cannot be written.
+    /// [`CliError::Output`] where it cannot be written; another [`CliError`] that `write` wrapped by
+    /// [`io::Error::other`] comes back as it was.
     pub(crate) fn file(
         &mut self,
         path: &Path,
         write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
     ) -> Result<(), CliError> {
-        let failed = |error: io::Error| CliError::output(path, format!("cannot write: {error}"));
+        let failed = |error: io::Error| {
+            error
+                .downcast::<CliError>()
+                .unwrap_or_else(|error| CliError::output(path, format!("cannot write: {error}")))
+        };
         let file = {
             let mut pending = pending();
             let file = temporary(parent(path)).map_err(failed)?;
