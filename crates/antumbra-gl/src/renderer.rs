@@ -263,11 +263,10 @@ impl Renderer {
         if self.painting || lights.iter().all(|light| light.area == Area::None) {
             return None;
         }
-        match (self.soft, self.technique) {
-            (Soft::Samples { count, pattern }, _) => Some(Sampling::Spread(count, pattern)),
+        match self.soft {
+            Soft::Samples { count, pattern } => Some(Sampling::Spread(count, pattern)),
             // What it paints is no visibility: masks are the average over the same components.
-            (Soft::Native, Technique::Composite(options)) => Some(Sampling::Components(options.components)),
-            (Soft::Native, _) => None,
+            Soft::Native => self.technique.components().map(Sampling::Components),
         }
     }
 

@@ -5,7 +5,7 @@
 //! union of the occluders. Theory: docs/theory/analytic.md.
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Part, Pass, Refusal};
+use super::{About, Batch, Behavior, Method, Part, Pass, Refusal};
 use crate::pairs::{HARD_KINDS, PairBuilder, Vertex};
 use crate::resources::UploadRing;
 use crate::scenery::Scenery;
@@ -37,6 +37,12 @@ options! {
     pub struct Options {
         /// Where the shadows of several occluders overlap.
         pub quality: Quality = Quality::Fast, ();
+    }
+}
+
+impl Behavior for Options {
+    fn is_exact(&self) -> bool {
+        self.quality == Quality::Exact
     }
 }
 

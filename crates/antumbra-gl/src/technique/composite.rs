@@ -8,7 +8,7 @@ mod components;
 mod parts;
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
+use super::{About, Batch, Behavior, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::pairs::{BATCH_LIGHTS, Vertex};
 use crate::resources::UploadRing;
 use crate::scenery::{Receiver, ReceiverShape, Scenery};
@@ -22,7 +22,7 @@ use components::Collected;
 pub(crate) use components::push_components;
 pub use components::{Component, components};
 use glow::HasContext;
-use parts::{Drawn, PartBuilder, paints};
+use parts::{Drawn, PartBuilder};
 
 /// What it is.
 pub(super) const ABOUT: About = About {
@@ -62,6 +62,16 @@ options! {
         /// Point lights that a light with an area is a collection of, painted: one in its centre, the others on its
         /// rim.
         pub components: u32 = 3, 1..=64;
+    }
+}
+
+impl Behavior for Options {
+    fn paints(&self) -> bool {
+        self.shade == Shade::Paper
+    }
+
+    fn components(&self) -> Option<u32> {
+        self.paints().then_some(self.components)
     }
 }
 
@@ -116,7 +126,7 @@ const SOFT_PAINT: usize = 4;
 pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
     let refused = |part, reason: &str| Some(Refusal { part, reason: reason.into() });
     // Painted, they are collections of points.
-    if !paints(options)
+    if !options.paints()
         && let Some(refusal) = Refusal::of_areas(scenery.lights)
     {
         return Some(refusal);
@@ -132,7 +142,7 @@ pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusa
             "draws on a plane or rectangle of some extent, and the receiver has none",
         );
     };
-    if paints(options) {
+    if options.paints() {
         let is_point = |place| matches!(place, Place::Point { .. });
         if let Some(light) = scenery.lights.iter().position(|light| !is_point(light.place)) {
             let reason =
@@ -241,7 +251,7 @@ impl Method for State {
 
     fn painter(&mut self, pass: &Pass<'_>) -> Option<&mut dyn Painter> {
         match pass.technique {
-            Technique::Composite(options) if paints(options) => Some(self),
+            Technique::Composite(options) if options.paints() => Some(self),
             _ => None,
         }
     }

@@ -76,6 +76,10 @@ macro_rules! techniques {
                 match self { $(Self::$name(options) => options.changed(),)* }
             }
 
+            fn behavior(&self) -> &dyn Behavior {
+                match self { $(Self::$name(options) => options,)* }
+            }
+
             /// Its place in [`Self::NAMES`].
             pub(crate) fn index(&self) -> usize {
                 Self::NAMES.iter().position(|name| *name == self.name()).unwrap_or(0)
@@ -118,10 +122,20 @@ techniques! {
 }
 
 impl Technique {
+    /// Whether [`crate::Renderer::overlay`] paints shadows over the host's pixels, where others take light away.
+    pub fn paints(&self) -> bool {
+        self.behavior().paints()
+    }
+
+    /// How many point lights stand for a light with an area in the technique's own soft shadows; `None` if it draws the
+    /// area as it is, or refuses it.
+    pub fn components(&self) -> Option<u32> {
+        self.behavior().components()
+    }
+
     /// Whether it looks at several occluders of an area light at once.
     pub(crate) fn is_exact(&self) -> bool {
-        use analytic::{Options, Quality};
-        matches!(self, Self::Analytic(Options { quality: Quality::Exact }))
+        self.behavior().is_exact()
     }
 
     /// The technique that `text` says: a name from [`Self::NAMES`], then `:key=value` for options.
@@ -139,17 +153,6 @@ impl Technique {
             technique.set(key, value).map_err(|error| format!("technique {name}: {error}"))?;
         }
         Ok(technique)
-    }
-}
-
-impl Technique {
-    /// Whether [`crate::Renderer::overlay`] paints shadows over the host's pixels, where others take light away.
-    pub fn paints(&self) -> bool {
-        match self {
-            Self::Composite(options) => options.shade == composite::Shade::Paper,
-            Self::Projected(options) => options.shade == projected::Shade::Paper,
-            _ => false,
-        }
     }
 }
 
@@ -260,6 +263,28 @@ pub(crate) struct Batch<'a> {
     pub(crate) masks: [&'a Target; 2],
     /// Where the masks may differ from 1: the method touches these tiles, and no others are looked at.
     pub(crate) tiles: &'a mut TileGrid,
+}
+
+/// What a technique with its options does out of the ordinary: its `Options` answer.
+pub(crate) trait Behavior {
+    /// See [`Technique::paints`]; if so, [`Method::painter`] has a painter.
+    fn paints(&self) -> bool {
+        false
+    }
+
+    /// See [`Technique::components`].
+    fn components(&self) -> Option<u32> {
+        None
+    }
+
+    /// Whether it looks at several occluders of an area light at once, with the programs of [`LightKind::ExactBall`] and
+    /// [`LightKind::ExactFlat`].
+    ///
+    /// [`LightKind::ExactBall`]: crate::shader::LightKind::ExactBall
+    /// [`LightKind::ExactFlat`]: crate::shader::LightKind::ExactFlat
+    fn is_exact(&self) -> bool {
+        false
+    }
 }
 
 /// How a technique draws. One object serves frame after frame.

@@ -1,6 +1,6 @@
 //! The parts of a batch's shadows on the receiver, packed for upload.
 
-use super::{Options, Shade, receiver_frame};
+use super::{Options, receiver_frame};
 use crate::frame::Frame;
 use crate::overlay::Encoding;
 use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS, Vertex, clip_position};
@@ -211,9 +211,4 @@ fn grey(k: f64, encoding: Encoding) -> f32 {
         Encoding::Linear => linear_grey(k) as f32,
         Encoding::Gamma(_) => k as f32,
     }
-}
-
-/// Whether shadows are painted.
-pub(super) fn paints(options: &Options) -> bool {
-    options.shade == Shade::Paper
 }

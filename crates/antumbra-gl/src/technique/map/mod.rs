@@ -14,7 +14,7 @@ pub mod soft;
 mod target;
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Part, Pass, Refusal, Technique};
+use super::{About, Batch, Behavior, Method, Part, Pass, Refusal, Technique};
 use crate::mesh_buffers::MeshCache;
 use crate::pairs::{GROUP_LIGHTS, hides_its_own_shadow};
 use crate::proxy::ProxyBuilder;
@@ -74,6 +74,8 @@ options! {
         pub normal_offset: f32 = 0.25, 0.0..=1000.0;
     }
 }
+
+impl Behavior for Options {}
 
 /// Indices into [`PROGRAMS`].
 const CASTER: usize = 0;

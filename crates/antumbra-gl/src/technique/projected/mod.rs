@@ -10,7 +10,7 @@ mod plan;
 mod receivers;
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
+use super::{About, Batch, Behavior, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::mesh_buffers::MeshCache;
 use crate::proxy::ProxyBuilder;
 use crate::resources::{Target, TargetFormat, UploadRing};
@@ -53,6 +53,12 @@ options! {
         /// show what it is for and with `shade=paper` alone, every triangle blends, wherever the receiver's plane
         /// is not hidden.
         pub stencil: bool = true, ();
+    }
+}
+
+impl Behavior for Options {
+    fn paints(&self) -> bool {
+        self.shade == Shade::Paper
     }
 }
 
@@ -325,10 +331,7 @@ impl Method for State {
     }
 
     fn painter(&mut self, pass: &Pass<'_>) -> Option<&mut dyn Painter> {
-        match options(pass).shade {
-            Shade::Physical => None,
-            Shade::Paper => Some(self),
-        }
+        options(pass).paints().then_some(self as &mut dyn Painter)
     }
 
     fn counts(&self) -> (usize, usize) {

@@ -12,7 +12,7 @@ mod packer;
 mod polygon;
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Pass, Refusal, Technique};
+use super::{About, Batch, Behavior, Method, Pass, Refusal, Technique};
 use crate::resources::{Target, UploadRing};
 use crate::scenery::Scenery;
 use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
@@ -51,6 +51,8 @@ options! {
         pub counting: Counting = Counting::PerVolume, ();
     }
 }
+
+impl Behavior for Options {}
 
 /// What counts, and what writes where the count is not zero.
 pub(super) const PROGRAMS: &[ProgramSource] = &[
