@@ -8,6 +8,7 @@ use super::options::{choices, options};
 use super::{About, Batch, Behavior, Method, Part, Pass, Refusal};
 use crate::pairs::{HARD_KINDS, PairBuilder, Vertex};
 use crate::resources::UploadRing;
+use crate::results::Counts;
 use crate::scenery::Scenery;
 use crate::shader::{AREA, COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::Blend;
@@ -211,7 +212,7 @@ impl Method for State {
         Ok(())
     }
 
-    fn counts(&self) -> (usize, usize) {
+    fn counts(&self) -> Counts {
         self.pairs.counts
     }
 

@@ -11,9 +11,11 @@ use super::options::{choices, options};
 use super::{About, Batch, Behavior, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::pairs::{BATCH_LIGHTS, Vertex};
 use crate::resources::UploadRing;
+use crate::results::Counts;
 use crate::scenery::{Receiver, ReceiverShape, Scenery};
 use crate::shader::{COVERAGE, LightKind, Program, ProgramSource, SURFACE, Stage};
 use crate::state::Blend;
+use crate::tiles::TileGrid;
 use crate::{Caps, Encoding, Error};
 use antumbra_math::Light as Place;
 pub use antumbra_math::composite::SphereForm;
@@ -256,7 +258,7 @@ impl Method for State {
         }
     }
 
-    fn counts(&self) -> (usize, usize) {
+    fn counts(&self) -> Counts {
         self.parts.counts
     }
 
@@ -270,7 +272,12 @@ impl Method for State {
 }
 
 impl Painter for State {
-    unsafe fn paint(&mut self, pass: &Pass<'_>, encoding: Encoding) -> Result<(), Error> {
+    unsafe fn paint(
+        &mut self,
+        pass: &Pass<'_>,
+        encoding: Encoding,
+        tiles: &mut TileGrid,
+    ) -> Result<(), Error> {
         let Technique::Composite(Options { components, .. }) = *pass.technique else { return Ok(()) };
         let (gl, all) = (pass.gl, pass.frame.lights);
         let mut next = 0;
@@ -285,7 +292,7 @@ impl Painter for State {
                     });
                 }
                 // SAFETY: the caller's.
-                unsafe { self.paint_collection(pass, encoding)? };
+                unsafe { self.paint_collection(pass, encoding, tiles)? };
                 next += 1;
                 continue;
             }
@@ -297,7 +304,7 @@ impl Painter for State {
                 next += 1;
             }
             let lights = &all[first..next];
-            self.parts.pack(lights, pass.view, Drawn::Shade(encoding));
+            self.parts.pack(lights, pass.view, Drawn::Shade(encoding, tiles));
             if self.parts.vertices.is_empty() {
                 continue;
             }

@@ -10,6 +10,7 @@ pub mod volume;
 
 use crate::frame::Frame;
 use crate::resources::Target;
+use crate::results::Counts;
 use crate::scenery::{Light, Scenery};
 use crate::shader::{Program, ProgramSource};
 use crate::surface::set_surface;
@@ -307,8 +308,8 @@ pub(crate) trait Method {
         None
     }
 
-    /// Pairs of light and occluder looked at, and polygons drawn for them, since [`Self::begin`].
-    fn counts(&self) -> (usize, usize);
+    /// What was done since [`Self::begin`].
+    fn counts(&self) -> Counts;
 
     /// Deletes the OpenGL objects.
     ///
@@ -319,12 +320,17 @@ pub(crate) trait Method {
 
 /// Paints shadows over the host's pixels.
 pub(crate) trait Painter {
-    /// Paints the shadows of all lights.
+    /// Paints the shadows of all lights, and touches the tiles it may paint in, none of which is touched.
     ///
     /// # Safety
     /// As for [`Method::draw_visibility`]; the host's framebuffer is bound for drawing, with its first colour
     /// buffer alone, and the viewport set.
-    unsafe fn paint(&mut self, pass: &Pass<'_>, encoding: Encoding) -> Result<(), Error>;
+    unsafe fn paint(
+        &mut self,
+        pass: &Pass<'_>,
+        encoding: Encoding,
+        tiles: &mut TileGrid,
+    ) -> Result<(), Error>;
 }
 
 #[cfg(test)]

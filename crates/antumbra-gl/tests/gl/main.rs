@@ -28,6 +28,7 @@ mod projected;
 mod sampled;
 mod samples;
 mod state;
+mod stats;
 mod steady;
 mod twins;
 mod viewports;

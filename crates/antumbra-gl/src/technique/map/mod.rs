@@ -19,6 +19,7 @@ use crate::mesh_buffers::MeshCache;
 use crate::pairs::{GROUP_LIGHTS, hides_its_own_shadow};
 use crate::proxy::ProxyBuilder;
 use crate::resources::UploadRing;
+use crate::results::Counts;
 use crate::scenery::{Area, Light, Scenery};
 use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard};
@@ -138,7 +139,9 @@ pub(super) struct State {
     proxy: ProxyBuilder,
     tiles: TileGrid,
     vertices: Vec<[f32; 2]>,
-    counts: (usize, usize),
+    /// Of each caster whether it is in the light's map.
+    is_drawn: Vec<bool>,
+    counts: Counts,
 }
 
 impl State {
@@ -162,7 +165,8 @@ impl State {
                 proxy: ProxyBuilder::default(),
                 tiles: TileGrid::default(),
                 vertices: Vec::new(),
-                counts: (0, 0),
+                is_drawn: Vec::new(),
+                counts: Counts::default(),
             })
         }
     }
@@ -170,7 +174,7 @@ impl State {
 
 impl Method for State {
     unsafe fn begin(&mut self, pass: &Pass<'_>) -> Result<(), Error> {
-        self.counts = (0, 0);
+        self.counts = Counts::default();
         self.around.begin(pass);
         // SAFETY: the caller's.
         unsafe { self.meshes.begin_frame(pass.gl) };
@@ -191,7 +195,7 @@ impl Method for State {
         Ok(())
     }
 
-    fn counts(&self) -> (usize, usize) {
+    fn counts(&self) -> Counts {
         self.counts
     }
 
@@ -219,7 +223,7 @@ impl State {
         light: &Light,
         options: &Options,
     ) -> Result<(), Error> {
-        self.counts.0 += self.around.casters.len() + self.around.planes.len();
+        self.counts.pairs += self.around.casters.len() + self.around.planes.len();
         let soft = light.area != Area::None;
         let light_vs = light.place.transformed(&pass.view.view);
         self.planes.clear();
@@ -259,6 +263,8 @@ impl State {
         let gl = pass.gl;
         let Some((_, framebuffer)) = self.target.objects() else { return Ok(()) };
         let size = options.size as i32;
+        self.is_drawn.clear();
+        self.is_drawn.resize(self.around.casters.len(), false);
         // SAFETY: the caller's.
         unsafe {
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(framebuffer));
@@ -272,11 +278,12 @@ impl State {
                 gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.0]);
                 let program = pass.program(CASTER);
                 gl.use_program(Some(program.raw));
-                for (caster, bounds) in casters(pass).zip(&self.around.casters) {
+                for (i, (caster, bounds)) in casters(pass).zip(&self.around.casters).enumerate() {
                     if face.misses(bounds) {
                         continue;
                     }
-                    self.counts.1 += 1;
+                    self.counts.polygons += 1;
+                    self.is_drawn[i] = true;
                     let clip = (face.clip * caster.model).as_mat4();
                     let mesh = with_sides(caster.mesh, face.sides(bounds, f64::from(options.size)));
                     let mesh = self.meshes.get(gl, mesh)?;
@@ -288,6 +295,7 @@ impl State {
             gl.disable(glow::DEPTH_TEST);
             gl.disable(glow::SCISSOR_TEST);
         }
+        self.counts.drawn += self.is_drawn.iter().filter(|drawn| **drawn).count() + self.planes.len();
         Ok(())
     }
 
@@ -299,7 +307,7 @@ impl State {
         for plane in &self.planes {
             // Texels counted from the middle of the face.
             let Some(slope) = face.depth_of_plane(plane, DVec2::splat(-0.5 * size), size) else { continue };
-            self.counts.1 += 1;
+            self.counts.polygons += 1;
             let middle = corner + 0.5 * size;
             // SAFETY: the caller's.
             unsafe {

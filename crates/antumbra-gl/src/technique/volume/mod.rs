@@ -14,6 +14,7 @@ mod polygon;
 use super::options::{choices, options};
 use super::{About, Batch, Behavior, Method, Pass, Refusal, Technique};
 use crate::resources::{Target, UploadRing};
+use crate::results::Counts;
 use crate::scenery::Scenery;
 use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard, set_color_mask};
@@ -182,7 +183,7 @@ impl Method for State {
         Ok(())
     }
 
-    fn counts(&self) -> (usize, usize) {
+    fn counts(&self) -> Counts {
         self.packer.counts
     }
 
