@@ -1,5 +1,7 @@
 //! The renderer: a guest in the host's OpenGL.
 
+mod depth_map;
+
 use crate::frame::{Frame, Surface};
 use crate::host_target::{OtherBuffers, refuse_feedback};
 use crate::overlay::{Encoding, HostPicture, Overlay};

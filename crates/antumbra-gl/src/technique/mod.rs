@@ -134,6 +134,11 @@ impl Technique {
         self.behavior().components()
     }
 
+    /// Whether [`crate::Renderer::depth_map`] has maps to show.
+    pub fn has_maps(&self) -> bool {
+        self.behavior().has_maps()
+    }
+
     /// Whether it looks at several occluders of an area light at once.
     pub(crate) fn is_exact(&self) -> bool {
         self.behavior().is_exact()
@@ -278,6 +283,11 @@ pub(crate) trait Behavior {
         None
     }
 
+    /// Whether [`Method::draw_map`] has maps to draw.
+    fn has_maps(&self) -> bool {
+        false
+    }
+
     /// Whether it looks at several occluders of an area light at once, with the programs of [`LightKind::ExactBall`] and
     /// [`LightKind::ExactFlat`].
     ///
@@ -306,6 +316,15 @@ pub(crate) trait Method {
     /// For techniques that paint shadows over the host's pixels instead of taking light from them.
     fn painter(&mut self, _pass: &Pass<'_>) -> Option<&mut dyn Painter> {
         None
+    }
+
+    /// For techniques with shadow maps: draws the map of a light as [`Self::draw_visibility`] does, which may draw
+    /// another over it. `None` if nothing in sight is in the light's shadow.
+    ///
+    /// # Safety
+    /// As for [`Self::draw_visibility`].
+    unsafe fn draw_map(&mut self, _pass: &Pass<'_>, _light: &Light) -> Result<Option<map::DepthMap>, Error> {
+        Ok(None)
     }
 
     /// What was done since [`Self::begin`].

@@ -17,6 +17,7 @@ mod cameras;
 mod composite;
 mod composite_guest;
 mod composite_soft;
+mod depth_map;
 mod depth_only;
 mod leaks;
 mod lights;

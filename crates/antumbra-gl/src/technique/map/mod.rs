@@ -5,6 +5,7 @@
 //! docs/theory/map.md.
 
 mod bounds;
+mod depth_map;
 mod face;
 mod fit;
 mod lookup;
@@ -28,6 +29,7 @@ use crate::tiles::TileGrid;
 use crate::{Caps, Error};
 use antumbra_math::Plane;
 use bounds::Surroundings;
+pub use depth_map::{DepthMap, DepthScale, MapFace};
 use face::Face;
 use fit::Fit;
 use glam::DVec2;
@@ -76,7 +78,11 @@ options! {
     }
 }
 
-impl Behavior for Options {}
+impl Behavior for Options {
+    fn has_maps(&self) -> bool {
+        true
+    }
+}
 
 /// Indices into [`PROGRAMS`].
 const CASTER: usize = 0;
@@ -195,6 +201,12 @@ impl Method for State {
         Ok(())
     }
 
+    unsafe fn draw_map(&mut self, pass: &Pass<'_>, light: &Light) -> Result<Option<DepthMap>, Error> {
+        let Technique::Map(options) = pass.technique else { return Ok(None) };
+        // SAFETY: the caller's.
+        unsafe { self.draw_shown(pass, light, options) }
+    }
+
     fn counts(&self) -> Counts {
         self.counts
     }
@@ -224,18 +236,9 @@ impl State {
         options: &Options,
     ) -> Result<(), Error> {
         self.counts.pairs += self.around.casters.len() + self.around.planes.len();
-        let soft = light.area != Area::None;
-        let light_vs = light.place.transformed(&pass.view.view);
-        self.planes.clear();
-        self.planes.extend(self.around.planes.iter().filter_map(|&(plane, id)| {
-            let shape = plane.transformed(&pass.view.view).into();
-            (!hides_its_own_shadow(&shape, id, &light_vs)).then_some(plane)
-        }));
-        let fit = Fit::new(&light.place, &self.around, &self.planes, options, soft);
-        let Some(fit) = fit else { return Ok(()) };
-
+        let Some(fit) = self.fit(pass, light, options) else { return Ok(()) };
         self.tiles.reset(pass.view.size());
-        if soft || !self.planes.is_empty() {
+        if light.area != Area::None || !self.planes.is_empty() {
             self.tiles.touch_all();
         } else {
             let texel = fit.some_face.texel(f64::from(options.size));
@@ -248,19 +251,34 @@ impl State {
         batch.tiles.add(&self.tiles);
         // SAFETY: the caller's.
         unsafe {
-            let tiles = fit.faces.iter().flatten().count() as u32;
-            self.target.ensure(pass.gl, pass.caps, options.size, tiles)?;
-            self.draw_map(pass, &fit, options)?;
+            self.draw_fitted(pass, &fit, options)?;
             self.look_up(pass, batch, index, light, &fit, options)
         }
+    }
+
+    /// Fits a light's map, and finds the planes that are in it. `None` if the light has no shadow in sight.
+    fn fit(&mut self, pass: &Pass<'_>, light: &Light, options: &Options) -> Option<Fit> {
+        if light.intensity == glam::Vec3::ZERO {
+            return None; // takes nothing away
+        }
+        let light_vs = light.place.transformed(&pass.view.view);
+        self.planes.clear();
+        self.planes.extend(self.around.planes.iter().filter_map(|&(plane, id)| {
+            let shape = plane.transformed(&pass.view.view).into();
+            (!hides_its_own_shadow(&shape, id, &light_vs)).then_some(plane)
+        }));
+        Fit::new(&light.place, &self.around, &self.planes, options, light.area != Area::None)
     }
 
     /// Draws what the light sees.
     ///
     /// # Safety
     /// As for [`Self::draw_light`].
-    unsafe fn draw_map(&mut self, pass: &Pass<'_>, fit: &Fit, options: &Options) -> Result<(), Error> {
+    unsafe fn draw_fitted(&mut self, pass: &Pass<'_>, fit: &Fit, options: &Options) -> Result<(), Error> {
         let gl = pass.gl;
+        let tiles = fit.faces.iter().flatten().count() as u32;
+        // SAFETY: the caller's.
+        unsafe { self.target.ensure(gl, pass.caps, options.size, tiles)? };
         let Some((_, framebuffer)) = self.target.objects() else { return Ok(()) };
         let size = options.size as i32;
         self.is_drawn.clear();
