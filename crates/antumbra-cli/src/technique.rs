@@ -100,8 +100,8 @@ impl Technique {
     pub(crate) fn components(&self) -> Option<u32> {
         match self {
             Self::Gl(_, Soft::Samples { count, .. }) => Some(*count),
-            Self::Gl(antumbra::Technique::Composite(options), Soft::Native) => Some(options.components),
-            _ => None,
+            Self::Gl(technique, Soft::Native) => technique.components(),
+            Self::Raytraced => None,
         }
     }
 

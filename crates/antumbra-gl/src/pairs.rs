@@ -1,6 +1,7 @@
 //! The pairs of light and occluder of one batch, culled and packed for upload.
 
 use crate::proxy::ProxyBuilder;
+use crate::results::Counts;
 use crate::scenery::{Light, Occluder};
 use crate::soft_pairs::{AreaLight, SOFT_SHAPES};
 use crate::tiles::TileGrid;
@@ -58,14 +59,14 @@ pub(crate) struct PairBuilder {
     pub(crate) vertices: Vec<Vertex>,
     /// The draws of the batch.
     pub(crate) draws: Vec<Draw>,
-    /// Pairs that were looked at, and polygons that are drawn, since the frame began.
-    pub(crate) counts: (usize, usize),
+    /// Since the frame began.
+    pub(crate) counts: Counts,
 }
 
 impl PairBuilder {
     /// Takes the frame's occluders into view space.
     pub(crate) fn begin(&mut self, occluders: &[Occluder], bounds: &[Plane], view: &View) {
-        self.counts = (0, 0);
+        self.counts = Counts::default();
         self.shapes_vs.clear();
         self.bounds_vs.clear();
         seen_half_spaces(occluders, bounds, view, &mut self.bounds_vs);
@@ -114,7 +115,8 @@ impl PairBuilder {
     ) {
         let size = view.size();
         for &(shape, id, center, radius) in &self.shapes_vs {
-            self.counts.0 += 1;
+            self.counts.pairs += 1;
+            let drawn_before = self.counts.polygons;
             if !light_vs.may_reach(center, radius) || hides_its_own_shadow(&shape, id, light_vs) {
                 continue;
             }
@@ -124,13 +126,14 @@ impl PairBuilder {
                 if polygon.len() < 3 {
                     continue;
                 }
-                self.counts.1 += 1;
+                self.counts.polygons += 1;
                 tiles.touch(polygon);
                 let first = self.texels.len() as u32;
                 let kind = pack_blocker(blocker, &mut self.texels);
                 let list = &mut self.lists[index / GROUP_LIGHTS * KINDS + kind];
                 pack_polygon(list, polygon, size, first * 4 + (index % GROUP_LIGHTS) as u32, id);
             }
+            self.counts.drawn += usize::from(self.counts.polygons > drawn_before);
         }
     }
 
@@ -150,7 +153,7 @@ impl PairBuilder {
             area.pack(&mut self.texels);
         }
         for &(shape, id, ..) in &self.shapes_vs {
-            self.counts.0 += 1;
+            self.counts.pairs += 1;
             if area.is_beside(&shape) && hides_its_own_shadow(&shape, id, place) {
                 continue;
             }
@@ -162,7 +165,8 @@ impl PairBuilder {
                 self.texels.truncate(first);
                 continue;
             }
-            self.counts.1 += 1;
+            self.counts.drawn += 1;
+            self.counts.polygons += 1;
             tiles.touch(polygon);
             if exact {
                 self.union.add(polygon, kind % SOFT_SHAPES, first, id);

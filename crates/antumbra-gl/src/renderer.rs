@@ -1,11 +1,13 @@
 //! The renderer: a guest in the host's OpenGL.
 
+mod depth_map;
+
 use crate::frame::{Frame, Surface};
 use crate::host_target::{OtherBuffers, refuse_feedback};
 use crate::overlay::{Encoding, HostPicture, Overlay};
 use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS};
 use crate::resources::{Target, TargetFormat};
-use crate::results::{MaskBatch, Stats};
+use crate::results::{Counts, MaskBatch, Stats};
 use crate::sampler::{Points, Sampler, Sampling};
 use crate::samples::Soft;
 use crate::scenery::{Area, Light};
@@ -263,11 +265,10 @@ impl Renderer {
         if self.painting || lights.iter().all(|light| light.area == Area::None) {
             return None;
         }
-        match (self.soft, self.technique) {
-            (Soft::Samples { count, pattern }, _) => Some(Sampling::Spread(count, pattern)),
+        match self.soft {
+            Soft::Samples { count, pattern } => Some(Sampling::Spread(count, pattern)),
             // What it paints is no visibility: masks are the average over the same components.
-            (Soft::Native, Technique::Composite(options)) => Some(Sampling::Components(options.components)),
-            (Soft::Native, _) => None,
+            Soft::Native => self.technique.components().map(Sampling::Components),
         }
     }
 
@@ -294,8 +295,8 @@ impl Renderer {
             // SAFETY: the caller's.
             unsafe { Target::ensure(slot, &self.gl, format, size, frame.surface.samples)? };
         }
-        self.stats = Stats::default();
         self.frame_tiles.reset(view.size());
+        self.stats = Stats { tiles: self.frame_tiles.len(), ..Stats::default() };
         // SAFETY: the caller's.
         self.with_method(frame, view, |method, pass, _| unsafe { method.begin(pass) })
     }
@@ -338,7 +339,7 @@ impl Renderer {
         frame: &Frame<'_>,
         view: &View,
     ) -> Result<(), Error> {
-        let (pairs, polygons) = self.with_method(frame, view, |method, pass, work| {
+        let counts = self.with_method(frame, view, |method, pass, work| {
             let Work { masks, tiles, sampler, points } = work;
             tiles.reset(view.size());
             let gl = pass.gl;
@@ -357,8 +358,7 @@ impl Renderer {
             }
             Ok(method.counts())
         })?;
-        self.stats = Stats { pairs, polygons, batches: self.stats.batches + 1 };
-        self.frame_tiles.add(&self.batch_tiles);
+        self.count(counts);
         Ok(())
     }
 
@@ -373,15 +373,16 @@ impl Renderer {
         encoding: Encoding,
         host: HostPicture,
     ) -> Result<bool, Error> {
-        let counts = self.with_method(frame, view, |method, pass, _| {
+        let counts = self.with_method(frame, view, |method, pass, work| {
             let Some(painter) = method.painter(pass) else { return Ok(None) };
+            work.tiles.reset(view.size());
             let (gl, [x, y, width, height]) = (pass.gl, view.viewport);
             // SAFETY: the caller's.
             unsafe {
                 gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
                 gl.viewport(x, y, width, height);
                 let others = OtherBuffers::leave_alone(gl, *pass.caps, host.framebuffer);
-                let painted = painter.paint(pass, encoding);
+                let painted = painter.paint(pass, encoding, work.tiles);
                 if let Some(others) = others {
                     gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
                     others.restore(gl);
@@ -390,9 +391,22 @@ impl Renderer {
             }
             Ok(Some(method.counts()))
         })?;
-        let Some((pairs, polygons)) = counts else { return Ok(false) };
-        self.stats = Stats { pairs, polygons, batches: 1 };
+        let Some(counts) = counts else { return Ok(false) };
+        self.count(counts);
         Ok(true)
+    }
+
+    /// Says what the frame has done after one more batch. `counts` are since its beginning.
+    fn count(&mut self, counts: Counts) {
+        self.frame_tiles.add(&self.batch_tiles);
+        self.stats = Stats {
+            pairs: counts.pairs,
+            drawn_pairs: counts.drawn,
+            polygons: counts.polygons,
+            batches: self.stats.batches + 1,
+            touched_tiles: self.frame_tiles.touched_len(),
+            tiles: self.frame_tiles.len(),
+        };
     }
 
     /// Draws one of the overlay's passes over the batch's tiles.

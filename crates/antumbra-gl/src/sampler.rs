@@ -86,7 +86,7 @@ impl Points {
     }
 
     /// Those of one light.
-    fn of(&self, light: usize) -> &[Light] {
+    pub(crate) fn of(&self, light: usize) -> &[Light] {
         &self.lights[self.first[light]..self.first[light + 1]]
     }
 }

@@ -98,6 +98,11 @@ impl TileGrid {
         self.touched.len()
     }
 
+    /// How many tiles are touched.
+    pub(crate) fn touched_len(&self) -> usize {
+        self.touched.iter().filter(|touched| **touched).count()
+    }
+
     /// The indices of the touched tiles.
     pub(crate) fn touched(&self) -> impl Iterator<Item = usize> {
         self.touched.iter().enumerate().filter_map(|(i, touched)| touched.then_some(i))
@@ -142,6 +147,7 @@ mod tests {
         grid.reset(DVec2::new(200.0, 100.0));
         grid.touch(&[DVec2::new(40.0, 20.0), DVec2::new(60.0, 20.0), DVec2::new(40.0, 30.0)]);
         assert_eq!(grid.rectangle(), [32, 16, 32, 16], "two tiles");
+        assert_eq!((grid.touched_len(), grid.len()), (2, 13 * 7), "of all that the viewport has");
         grid.touch(&[DVec2::new(190.0, 90.0), DVec2::new(199.0, 99.0), DVec2::new(195.0, 99.0)]);
         assert_eq!(grid.rectangle(), [32, 16, 168, 84], "up to the corner");
     }

@@ -5,9 +5,10 @@
 //! union of the occluders. Theory: docs/theory/analytic.md.
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Part, Pass, Refusal};
+use super::{About, Batch, Behavior, Method, Part, Pass, Refusal};
 use crate::pairs::{HARD_KINDS, PairBuilder, Vertex};
 use crate::resources::UploadRing;
+use crate::results::Counts;
 use crate::scenery::Scenery;
 use crate::shader::{AREA, COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::Blend;
@@ -37,6 +38,12 @@ options! {
     pub struct Options {
         /// Where the shadows of several occluders overlap.
         pub quality: Quality = Quality::Fast, ();
+    }
+}
+
+impl Behavior for Options {
+    fn is_exact(&self) -> bool {
+        self.quality == Quality::Exact
     }
 }
 
@@ -205,7 +212,7 @@ impl Method for State {
         Ok(())
     }
 
-    fn counts(&self) -> (usize, usize) {
+    fn counts(&self) -> Counts {
         self.pairs.counts
     }
 

@@ -8,12 +8,14 @@ mod components;
 mod parts;
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
+use super::{About, Batch, Behavior, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::pairs::{BATCH_LIGHTS, Vertex};
 use crate::resources::UploadRing;
+use crate::results::Counts;
 use crate::scenery::{Receiver, ReceiverShape, Scenery};
 use crate::shader::{COVERAGE, LightKind, Program, ProgramSource, SURFACE, Stage};
 use crate::state::Blend;
+use crate::tiles::TileGrid;
 use crate::{Caps, Encoding, Error};
 use antumbra_math::Light as Place;
 pub use antumbra_math::composite::SphereForm;
@@ -22,7 +24,7 @@ use components::Collected;
 pub(crate) use components::push_components;
 pub use components::{Component, components};
 use glow::HasContext;
-use parts::{Drawn, PartBuilder, paints};
+use parts::{Drawn, PartBuilder};
 
 /// What it is.
 pub(super) const ABOUT: About = About {
@@ -62,6 +64,16 @@ options! {
         /// Point lights that a light with an area is a collection of, painted: one in its centre, the others on its
         /// rim.
         pub components: u32 = 3, 1..=64;
+    }
+}
+
+impl Behavior for Options {
+    fn paints(&self) -> bool {
+        self.shade == Shade::Paper
+    }
+
+    fn components(&self) -> Option<u32> {
+        self.paints().then_some(self.components)
     }
 }
 
@@ -116,7 +128,7 @@ const SOFT_PAINT: usize = 4;
 pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
     let refused = |part, reason: &str| Some(Refusal { part, reason: reason.into() });
     // Painted, they are collections of points.
-    if !paints(options)
+    if !options.paints()
         && let Some(refusal) = Refusal::of_areas(scenery.lights)
     {
         return Some(refusal);
@@ -132,7 +144,7 @@ pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusa
             "draws on a plane or rectangle of some extent, and the receiver has none",
         );
     };
-    if paints(options) {
+    if options.paints() {
         let is_point = |place| matches!(place, Place::Point { .. });
         if let Some(light) = scenery.lights.iter().position(|light| !is_point(light.place)) {
             let reason =
@@ -241,12 +253,12 @@ impl Method for State {
 
     fn painter(&mut self, pass: &Pass<'_>) -> Option<&mut dyn Painter> {
         match pass.technique {
-            Technique::Composite(options) if paints(options) => Some(self),
+            Technique::Composite(options) if options.paints() => Some(self),
             _ => None,
         }
     }
 
-    fn counts(&self) -> (usize, usize) {
+    fn counts(&self) -> Counts {
         self.parts.counts
     }
 
@@ -260,7 +272,12 @@ impl Method for State {
 }
 
 impl Painter for State {
-    unsafe fn paint(&mut self, pass: &Pass<'_>, encoding: Encoding) -> Result<(), Error> {
+    unsafe fn paint(
+        &mut self,
+        pass: &Pass<'_>,
+        encoding: Encoding,
+        tiles: &mut TileGrid,
+    ) -> Result<(), Error> {
         let Technique::Composite(Options { components, .. }) = *pass.technique else { return Ok(()) };
         let (gl, all) = (pass.gl, pass.frame.lights);
         let mut next = 0;
@@ -275,7 +292,7 @@ impl Painter for State {
                     });
                 }
                 // SAFETY: the caller's.
-                unsafe { self.paint_collection(pass, encoding)? };
+                unsafe { self.paint_collection(pass, encoding, tiles)? };
                 next += 1;
                 continue;
             }
@@ -287,7 +304,7 @@ impl Painter for State {
                 next += 1;
             }
             let lights = &all[first..next];
-            self.parts.pack(lights, pass.view, Drawn::Shade(encoding));
+            self.parts.pack(lights, pass.view, Drawn::Shade(encoding, tiles));
             if self.parts.vertices.is_empty() {
                 continue;
             }

@@ -10,6 +10,7 @@ pub mod volume;
 
 use crate::frame::Frame;
 use crate::resources::Target;
+use crate::results::Counts;
 use crate::scenery::{Light, Scenery};
 use crate::shader::{Program, ProgramSource};
 use crate::surface::set_surface;
@@ -76,6 +77,10 @@ macro_rules! techniques {
                 match self { $(Self::$name(options) => options.changed(),)* }
             }
 
+            fn behavior(&self) -> &dyn Behavior {
+                match self { $(Self::$name(options) => options,)* }
+            }
+
             /// Its place in [`Self::NAMES`].
             pub(crate) fn index(&self) -> usize {
                 Self::NAMES.iter().position(|name| *name == self.name()).unwrap_or(0)
@@ -118,10 +123,25 @@ techniques! {
 }
 
 impl Technique {
+    /// Whether [`crate::Renderer::overlay`] paints shadows over the host's pixels, where others take light away.
+    pub fn paints(&self) -> bool {
+        self.behavior().paints()
+    }
+
+    /// How many point lights stand for a light with an area in the technique's own soft shadows; `None` if it draws the
+    /// area as it is, or refuses it.
+    pub fn components(&self) -> Option<u32> {
+        self.behavior().components()
+    }
+
+    /// Whether [`crate::Renderer::depth_map`] has maps to show.
+    pub fn has_maps(&self) -> bool {
+        self.behavior().has_maps()
+    }
+
     /// Whether it looks at several occluders of an area light at once.
     pub(crate) fn is_exact(&self) -> bool {
-        use analytic::{Options, Quality};
-        matches!(self, Self::Analytic(Options { quality: Quality::Exact }))
+        self.behavior().is_exact()
     }
 
     /// The technique that `text` says: a name from [`Self::NAMES`], then `:key=value` for options.
@@ -139,17 +159,6 @@ impl Technique {
             technique.set(key, value).map_err(|error| format!("technique {name}: {error}"))?;
         }
         Ok(technique)
-    }
-}
-
-impl Technique {
-    /// Whether [`crate::Renderer::overlay`] paints shadows over the host's pixels, where others take light away.
-    pub fn paints(&self) -> bool {
-        match self {
-            Self::Composite(options) => options.shade == composite::Shade::Paper,
-            Self::Projected(options) => options.shade == projected::Shade::Paper,
-            _ => false,
-        }
     }
 }
 
@@ -262,6 +271,33 @@ pub(crate) struct Batch<'a> {
     pub(crate) tiles: &'a mut TileGrid,
 }
 
+/// What a technique with its options does out of the ordinary: its `Options` answer.
+pub(crate) trait Behavior {
+    /// See [`Technique::paints`]; if so, [`Method::painter`] has a painter.
+    fn paints(&self) -> bool {
+        false
+    }
+
+    /// See [`Technique::components`].
+    fn components(&self) -> Option<u32> {
+        None
+    }
+
+    /// Whether [`Method::draw_map`] has maps to draw.
+    fn has_maps(&self) -> bool {
+        false
+    }
+
+    /// Whether it looks at several occluders of an area light at once, with the programs of [`LightKind::ExactBall`] and
+    /// [`LightKind::ExactFlat`].
+    ///
+    /// [`LightKind::ExactBall`]: crate::shader::LightKind::ExactBall
+    /// [`LightKind::ExactFlat`]: crate::shader::LightKind::ExactFlat
+    fn is_exact(&self) -> bool {
+        false
+    }
+}
+
 /// How a technique draws. One object serves frame after frame.
 pub(crate) trait Method {
     /// Prepares a frame that the technique does not refuse.
@@ -282,8 +318,17 @@ pub(crate) trait Method {
         None
     }
 
-    /// Pairs of light and occluder looked at, and polygons drawn for them, since [`Self::begin`].
-    fn counts(&self) -> (usize, usize);
+    /// For techniques with shadow maps: draws the map of a light as [`Self::draw_visibility`] does, which may draw
+    /// another over it. `None` if nothing in sight is in the light's shadow.
+    ///
+    /// # Safety
+    /// As for [`Self::draw_visibility`].
+    unsafe fn draw_map(&mut self, _pass: &Pass<'_>, _light: &Light) -> Result<Option<map::DepthMap>, Error> {
+        Ok(None)
+    }
+
+    /// What was done since [`Self::begin`].
+    fn counts(&self) -> Counts;
 
     /// Deletes the OpenGL objects.
     ///
@@ -294,12 +339,17 @@ pub(crate) trait Method {
 
 /// Paints shadows over the host's pixels.
 pub(crate) trait Painter {
-    /// Paints the shadows of all lights.
+    /// Paints the shadows of all lights, and touches the tiles it may paint in, none of which is touched.
     ///
     /// # Safety
     /// As for [`Method::draw_visibility`]; the host's framebuffer is bound for drawing, with its first colour
     /// buffer alone, and the viewport set.
-    unsafe fn paint(&mut self, pass: &Pass<'_>, encoding: Encoding) -> Result<(), Error>;
+    unsafe fn paint(
+        &mut self,
+        pass: &Pass<'_>,
+        encoding: Encoding,
+        tiles: &mut TileGrid,
+    ) -> Result<(), Error>;
 }
 
 #[cfg(test)]

@@ -36,6 +36,21 @@ fn mistakes_say_what_to_write() {
     assert!(of("analytic:").contains("there is no option"), "{}", of("analytic:"));
 }
 
+#[test]
+fn techniques_say_how_they_behave() {
+    let of = |text: &str| {
+        let technique = Technique::parse(text).expect(text);
+        (technique.paints(), technique.components(), technique.is_exact())
+    };
+    assert_eq!(of("composite:components=5"), (true, Some(5), false), "paints, areas as points");
+    assert_eq!(of("composite:shade=physical"), (false, None, false), "refuses areas");
+    assert_eq!(of("projected:shade=paper"), (true, None, false), "paints");
+    assert_eq!(of("analytic:quality=exact"), (false, None, true), "several occluders at once");
+    for ordinary in ["analytic", "projected", "volume", "map"] {
+        assert_eq!(of(ordinary), (false, None, false), "{ordinary}");
+    }
+}
+
 /// Texts that an option can be set to, and texts that it cannot, from what it says of itself.
 fn right_and_wrong(allowed: Allowed) -> (Vec<String>, Vec<String>) {
     let text = |x: f64| x.to_string();

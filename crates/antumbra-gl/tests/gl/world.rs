@@ -128,6 +128,11 @@ impl World {
         self.tracer.visibility_at(light, surface, 1, 0) as f32
     }
 
+    /// What a ray meets first.
+    pub(crate) fn hit(&self, origin: DVec3, direction: DVec3) -> Option<Surface> {
+        self.tracer.surface(&Ray::new(origin, direction.normalize()))
+    }
+
     /// The truth for all lights.
     pub(crate) fn truth(&self, shot: &Shot<'_>) -> Truth<'_> {
         let (seen, width) = (&shot.seen, shot.viewport[2]);

@@ -144,6 +144,7 @@ impl State {
         &mut self,
         pass: &Pass<'_>,
         encoding: Encoding,
+        tiles: &mut TileGrid,
     ) -> Result<(), Error> {
         let (gl, [x, y, width, height]) = (pass.gl, pass.view.viewport);
         // SAFETY: the caller's.
@@ -157,6 +158,7 @@ impl State {
             if self.collected.vertices.is_empty() {
                 return Ok(());
             }
+            tiles.add(&self.collected.tiles);
             Blend::Over.apply(gl, *pass.caps);
             let program = pass.use_program(SOFT_PAINT, [0, 0]);
             if let Some(sums) = &self.collected.sums {

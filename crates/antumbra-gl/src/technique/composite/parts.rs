@@ -1,10 +1,11 @@
 //! The parts of a batch's shadows on the receiver, packed for upload.
 
-use super::{Options, Shade, receiver_frame};
+use super::{Options, receiver_frame};
 use crate::frame::Frame;
 use crate::overlay::Encoding;
 use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS, Vertex, clip_position};
 use crate::proxy::ProxyBuilder;
+use crate::results::Counts;
 use crate::scenery::Light;
 use crate::tiles::TileGrid;
 use crate::view::View;
@@ -21,8 +22,8 @@ pub(super) enum Drawn<'a> {
     /// The lights' visibility, in any order, and the tiles it is in.
     Visibility(&'a mut TileGrid),
     /// Their shade, as the pixels have it: light after light, and of one light the lightest first, so that
-    /// the darkest is what stays.
-    Shade(Encoding),
+    /// the darkest is what stays; and the tiles they are in.
+    Shade(Encoding, &'a mut TileGrid),
     /// Components of one light, in the papers' shade k and in any order, and the tiles they are in.
     Components(&'a mut TileGrid),
 }
@@ -45,7 +46,10 @@ pub(super) struct PartBuilder {
     /// World space, with a ball around each.
     casters: Vec<(Shape, DVec3, f64)>,
     proxy: ProxyBuilder,
-    of_light: Vec<Part>,
+    /// A light's parts, each with the index of its caster.
+    of_light: Vec<(Part, usize)>,
+    /// Of each caster whether the light at hand has drawn it.
+    is_drawn: Vec<bool>,
     /// The receiver's plane and sides in view space, as the shader reads them.
     pub(super) receiver: [Vec4; 5],
     /// What the parts' data texture is to hold.
@@ -54,14 +58,14 @@ pub(super) struct PartBuilder {
     pub(super) vertices: Vec<Vertex>,
     /// First vertex and number of vertices of each group of lights.
     pub(super) groups: [(i32, i32); BATCH_LIGHTS / GROUP_LIGHTS],
-    /// Pairs that were looked at, and polygons that are drawn, since the frame began.
-    pub(super) counts: (usize, usize),
+    /// Since the frame began.
+    pub(super) counts: Counts,
 }
 
 impl PartBuilder {
     /// Takes the frame's receiver and occluders. A frame that the technique refuses draws nothing.
     pub(super) fn begin(&mut self, frame: &Frame<'_>, view: &View, options: &Options) {
-        self.counts = (0, 0);
+        self.counts = Counts::default();
         self.sphere = options.sphere;
         self.casters.clear();
         self.ground = None;
@@ -98,7 +102,7 @@ impl PartBuilder {
 
     fn pack_light(&mut self, channel: u32, light: &Light, view: &View, drawn: &mut Drawn<'_>) {
         let Some(ground) = &self.ground else { return };
-        self.counts.0 += self.casters.len();
+        self.counts.pairs += self.casters.len();
         // What faces away from the light has no shadow to show.
         let l = light.place.homogeneous();
         let plane = Plane::through(ground.frame.origin, ground.frame.normal);
@@ -107,19 +111,21 @@ impl PartBuilder {
             return;
         }
         self.of_light.clear();
-        for (shape, center, radius) in &self.casters {
+        self.is_drawn.clear();
+        self.is_drawn.resize(self.casters.len(), false);
+        for (i, (shape, center, radius)) in self.casters.iter().enumerate() {
             if light.place.may_reach(*center, *radius)
                 && let Ok(shadow) = composite::cast(shape, &light.place, &ground.frame, self.sphere)
             {
-                self.of_light.extend(shadow.parts());
+                self.of_light.extend(shadow.parts().map(|part| (*part, i)));
             }
         }
         if !matches!(drawn, Drawn::Visibility(_)) {
             // White is the papers' unshaded ground.
-            self.of_light.retain(|part| part.shade < 1.0);
-            self.of_light.sort_unstable_by(|a, b| b.shade.total_cmp(&a.shade));
+            self.of_light.retain(|(part, _)| part.shade < 1.0);
+            self.of_light.sort_unstable_by(|(a, _), (b, _)| b.shade.total_cmp(&a.shade));
         }
-        for part in &self.of_light {
+        for (part, caster) in &self.of_light {
             let Some(placed) = PlacedPart::new(&part.shape, &ground.frame_vs) else { continue };
             let mut corners = [DVec3::ZERO; SIDES];
             let polygon =
@@ -127,18 +133,14 @@ impl PartBuilder {
             if polygon.len() < 3 {
                 continue;
             }
-            self.counts.1 += 1;
-            let grey = match drawn {
-                Drawn::Visibility(tiles) => {
-                    tiles.touch(polygon);
-                    0.0
-                }
-                Drawn::Shade(encoding) => grey(part.shade, *encoding),
-                Drawn::Components(tiles) => {
-                    tiles.touch(polygon);
-                    part.shade as f32
-                }
+            self.counts.polygons += 1;
+            self.counts.drawn += usize::from(!std::mem::replace(&mut self.is_drawn[*caster], true));
+            let (grey, tiles) = match drawn {
+                Drawn::Visibility(tiles) => (0.0, tiles),
+                Drawn::Shade(encoding, tiles) => (grey(part.shade, *encoding), tiles),
+                Drawn::Components(tiles) => (part.shade as f32, tiles),
             };
+            tiles.touch(polygon);
             let first = self.texels.len() as u32;
             self.texels.extend(texels(&placed, grey));
             let vertex = |p: DVec2| Vertex {
@@ -211,9 +213,4 @@ fn grey(k: f64, encoding: Encoding) -> f32 {
         Encoding::Linear => linear_grey(k) as f32,
         Encoding::Gamma(_) => k as f32,
     }
-}
-
-/// Whether shadows are painted.
-pub(super) fn paints(options: &Options) -> bool {
-    options.shade == Shade::Paper
 }

@@ -1,6 +1,7 @@
 //! What a light sees through a window: one face of its map.
 
 use super::bounds::Bounds;
+use super::depth_map::DepthScale;
 use antumbra_math::Plane;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Vec3};
 
@@ -119,23 +120,6 @@ fn tangents(across: f64, forward: f64, radius: f64) -> Option<(f64, f64)> {
     Some((low, high))
 }
 
-/// What depth a map keeps.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum DepthScale {
-    /// Near distance over distance.
-    Central {
-        /// Metres.
-        near: f64,
-    },
-    /// From 1 at `near` to 0 at `far`.
-    Parallel {
-        /// Metres along the light's way.
-        near: f64,
-        /// More than `near`.
-        far: f64,
-    },
-}
-
 /// One face, in float64.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
@@ -167,6 +151,15 @@ impl Face {
 
     pub(super) fn middle(&self) -> DVec2 {
         self.middle
+    }
+
+    pub(super) fn depth(&self) -> DepthScale {
+        self.depth
+    }
+
+    /// The nearest and the farthest of a caster, metres along the face's axis.
+    pub(super) fn depths(&self, caster: &Bounds) -> (f64, f64) {
+        caster.depths(&self.eye)
     }
 
     /// Whether nothing of a caster is in the window.

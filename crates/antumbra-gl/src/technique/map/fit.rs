@@ -2,7 +2,8 @@
 
 use super::Options;
 use super::bounds::{Bounds, Surroundings};
-use super::face::{DepthScale, Eye, Face, Window};
+use super::depth_map::DepthScale;
+use super::face::{Eye, Face, Window};
 use antumbra_math::{Light, Plane};
 use glam::{DVec2, DVec3};
 

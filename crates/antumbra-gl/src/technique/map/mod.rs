@@ -5,6 +5,7 @@
 //! docs/theory/map.md.
 
 mod bounds;
+mod depth_map;
 mod face;
 mod fit;
 mod lookup;
@@ -14,11 +15,12 @@ pub mod soft;
 mod target;
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Part, Pass, Refusal, Technique};
+use super::{About, Batch, Behavior, Method, Part, Pass, Refusal, Technique};
 use crate::mesh_buffers::MeshCache;
 use crate::pairs::{GROUP_LIGHTS, hides_its_own_shadow};
 use crate::proxy::ProxyBuilder;
 use crate::resources::UploadRing;
+use crate::results::Counts;
 use crate::scenery::{Area, Light, Scenery};
 use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard};
@@ -27,6 +29,7 @@ use crate::tiles::TileGrid;
 use crate::{Caps, Error};
 use antumbra_math::Plane;
 use bounds::Surroundings;
+pub use depth_map::{DepthMap, DepthScale, MapFace};
 use face::Face;
 use fit::Fit;
 use glam::DVec2;
@@ -72,6 +75,12 @@ options! {
         /// How far a point is moved off its surface, less the more it faces the light. Larger: less acne where
         /// normals do not tell the slope, and shadows move.
         pub normal_offset: f32 = 0.25, 0.0..=1000.0;
+    }
+}
+
+impl Behavior for Options {
+    fn has_maps(&self) -> bool {
+        true
     }
 }
 
@@ -136,7 +145,9 @@ pub(super) struct State {
     proxy: ProxyBuilder,
     tiles: TileGrid,
     vertices: Vec<[f32; 2]>,
-    counts: (usize, usize),
+    /// Of each caster whether it is in the light's map.
+    is_drawn: Vec<bool>,
+    counts: Counts,
 }
 
 impl State {
@@ -160,7 +171,8 @@ impl State {
                 proxy: ProxyBuilder::default(),
                 tiles: TileGrid::default(),
                 vertices: Vec::new(),
-                counts: (0, 0),
+                is_drawn: Vec::new(),
+                counts: Counts::default(),
             })
         }
     }
@@ -168,7 +180,7 @@ impl State {
 
 impl Method for State {
     unsafe fn begin(&mut self, pass: &Pass<'_>) -> Result<(), Error> {
-        self.counts = (0, 0);
+        self.counts = Counts::default();
         self.around.begin(pass);
         // SAFETY: the caller's.
         unsafe { self.meshes.begin_frame(pass.gl) };
@@ -189,7 +201,13 @@ impl Method for State {
         Ok(())
     }
 
-    fn counts(&self) -> (usize, usize) {
+    unsafe fn draw_map(&mut self, pass: &Pass<'_>, light: &Light) -> Result<Option<DepthMap>, Error> {
+        let Technique::Map(options) = pass.technique else { return Ok(None) };
+        // SAFETY: the caller's.
+        unsafe { self.draw_shown(pass, light, options) }
+    }
+
+    fn counts(&self) -> Counts {
         self.counts
     }
 
@@ -217,19 +235,10 @@ impl State {
         light: &Light,
         options: &Options,
     ) -> Result<(), Error> {
-        self.counts.0 += self.around.casters.len() + self.around.planes.len();
-        let soft = light.area != Area::None;
-        let light_vs = light.place.transformed(&pass.view.view);
-        self.planes.clear();
-        self.planes.extend(self.around.planes.iter().filter_map(|&(plane, id)| {
-            let shape = plane.transformed(&pass.view.view).into();
-            (!hides_its_own_shadow(&shape, id, &light_vs)).then_some(plane)
-        }));
-        let fit = Fit::new(&light.place, &self.around, &self.planes, options, soft);
-        let Some(fit) = fit else { return Ok(()) };
-
+        self.counts.pairs += self.around.casters.len() + self.around.planes.len();
+        let Some(fit) = self.fit(pass, light, options) else { return Ok(()) };
         self.tiles.reset(pass.view.size());
-        if soft || !self.planes.is_empty() {
+        if light.area != Area::None || !self.planes.is_empty() {
             self.tiles.touch_all();
         } else {
             let texel = fit.some_face.texel(f64::from(options.size));
@@ -242,21 +251,38 @@ impl State {
         batch.tiles.add(&self.tiles);
         // SAFETY: the caller's.
         unsafe {
-            let tiles = fit.faces.iter().flatten().count() as u32;
-            self.target.ensure(pass.gl, pass.caps, options.size, tiles)?;
-            self.draw_map(pass, &fit, options)?;
+            self.draw_fitted(pass, &fit, options)?;
             self.look_up(pass, batch, index, light, &fit, options)
         }
+    }
+
+    /// Fits a light's map, and finds the planes that are in it. `None` if the light has no shadow in sight.
+    fn fit(&mut self, pass: &Pass<'_>, light: &Light, options: &Options) -> Option<Fit> {
+        if light.intensity == glam::Vec3::ZERO {
+            return None; // takes nothing away
+        }
+        let light_vs = light.place.transformed(&pass.view.view);
+        self.planes.clear();
+        self.planes.extend(self.around.planes.iter().filter_map(|&(plane, id)| {
+            let shape = plane.transformed(&pass.view.view).into();
+            (!hides_its_own_shadow(&shape, id, &light_vs)).then_some(plane)
+        }));
+        Fit::new(&light.place, &self.around, &self.planes, options, light.area != Area::None)
     }
 
     /// Draws what the light sees.
     ///
     /// # Safety
     /// As for [`Self::draw_light`].
-    unsafe fn draw_map(&mut self, pass: &Pass<'_>, fit: &Fit, options: &Options) -> Result<(), Error> {
+    unsafe fn draw_fitted(&mut self, pass: &Pass<'_>, fit: &Fit, options: &Options) -> Result<(), Error> {
         let gl = pass.gl;
+        let tiles = fit.faces.iter().flatten().count() as u32;
+        // SAFETY: the caller's.
+        unsafe { self.target.ensure(gl, pass.caps, options.size, tiles)? };
         let Some((_, framebuffer)) = self.target.objects() else { return Ok(()) };
         let size = options.size as i32;
+        self.is_drawn.clear();
+        self.is_drawn.resize(self.around.casters.len(), false);
         // SAFETY: the caller's.
         unsafe {
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(framebuffer));
@@ -270,11 +296,12 @@ impl State {
                 gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.0]);
                 let program = pass.program(CASTER);
                 gl.use_program(Some(program.raw));
-                for (caster, bounds) in casters(pass).zip(&self.around.casters) {
+                for (i, (caster, bounds)) in casters(pass).zip(&self.around.casters).enumerate() {
                     if face.misses(bounds) {
                         continue;
                     }
-                    self.counts.1 += 1;
+                    self.counts.polygons += 1;
+                    self.is_drawn[i] = true;
                     let clip = (face.clip * caster.model).as_mat4();
                     let mesh = with_sides(caster.mesh, face.sides(bounds, f64::from(options.size)));
                     let mesh = self.meshes.get(gl, mesh)?;
@@ -286,6 +313,7 @@ impl State {
             gl.disable(glow::DEPTH_TEST);
             gl.disable(glow::SCISSOR_TEST);
         }
+        self.counts.drawn += self.is_drawn.iter().filter(|drawn| **drawn).count() + self.planes.len();
         Ok(())
     }
 
@@ -297,7 +325,7 @@ impl State {
         for plane in &self.planes {
             // Texels counted from the middle of the face.
             let Some(slope) = face.depth_of_plane(plane, DVec2::splat(-0.5 * size), size) else { continue };
-            self.counts.1 += 1;
+            self.counts.polygons += 1;
             let middle = corner + 0.5 * size;
             // SAFETY: the caller's.
             unsafe {

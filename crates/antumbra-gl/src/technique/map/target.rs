@@ -101,6 +101,12 @@ impl MapTarget {
         DVec2::new(f64::from(tile % columns * side), f64::from(tile / columns * side))
     }
 
+    /// Width and height, texels.
+    pub(super) fn size(&self) -> [u32; 2] {
+        let (side, columns, rows) = self.key;
+        [side * columns, side * rows]
+    }
+
     /// The texture and the framebuffer that draws to it, after [`Self::ensure`].
     pub(super) fn objects(&self) -> Option<(glow::Texture, glow::Framebuffer)> {
         self.made

@@ -10,10 +10,11 @@ mod plan;
 mod receivers;
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Painter, Part, Pass, Refusal, Technique};
+use super::{About, Batch, Behavior, Method, Painter, Part, Pass, Refusal, Technique};
 use crate::mesh_buffers::MeshCache;
 use crate::proxy::ProxyBuilder;
 use crate::resources::{Target, TargetFormat, UploadRing};
+use crate::results::Counts;
 use crate::scenery::Scenery;
 use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard, set_color_mask};
@@ -53,6 +54,12 @@ options! {
         /// show what it is for and with `shade=paper` alone, every triangle blends, wherever the receiver's plane
         /// is not hidden.
         pub stencil: bool = true, ();
+    }
+}
+
+impl Behavior for Options {
+    fn paints(&self) -> bool {
+        self.shade == Shade::Paper
     }
 }
 
@@ -122,7 +129,6 @@ pub(super) struct State {
     stencil: StencilBuffer,
     /// What painted shadows leave of the picture.
     painted: Option<Target>,
-    painted_tiles: TileGrid,
     proxy: ProxyBuilder,
     receivers: Receivers,
     /// The receivers' polygons.
@@ -140,7 +146,6 @@ impl State {
             screen: unsafe { UploadRing::new(gl, size_of::<[f32; 2]>() as i32)? },
             stencil: StencilBuffer::default(),
             painted: None,
-            painted_tiles: TileGrid::default(),
             proxy: ProxyBuilder::default(),
             receivers: Receivers::default(),
             receiver_vertices: None,
@@ -246,7 +251,6 @@ impl State {
         tiles: &mut TileGrid,
     ) -> Result<(), Error> {
         let (gl, [_, _, width, height]) = (pass.gl, pass.view.viewport);
-        tiles.reset(pass.view.size());
         // SAFETY: the caller's.
         unsafe {
             Target::ensure(slot, gl, TargetFormat::Rgba8, (width, height), pass.frame.surface.samples)?;
@@ -325,13 +329,10 @@ impl Method for State {
     }
 
     fn painter(&mut self, pass: &Pass<'_>) -> Option<&mut dyn Painter> {
-        match options(pass).shade {
-            Shade::Physical => None,
-            Shade::Paper => Some(self),
-        }
+        options(pass).paints().then_some(self as &mut dyn Painter)
     }
 
-    fn counts(&self) -> (usize, usize) {
+    fn counts(&self) -> Counts {
         self.plan.counts
     }
 
@@ -349,18 +350,21 @@ impl Method for State {
 impl Painter for State {
     /// Multiplies what the shadows leave of the picture in a target of its own, and the picture by that: the host's
     /// framebuffer need not have a stencil buffer.
-    unsafe fn paint(&mut self, pass: &Pass<'_>, encoding: Encoding) -> Result<(), Error> {
+    unsafe fn paint(
+        &mut self,
+        pass: &Pass<'_>,
+        encoding: Encoding,
+        tiles: &mut TileGrid,
+    ) -> Result<(), Error> {
         let gl = pass.gl;
         let [x, y, width, height] = pass.view.viewport;
-        let mut tiles = std::mem::take(&mut self.painted_tiles);
         let mut painted = self.painted.take();
         // SAFETY: the caller's.
         unsafe {
             let host = gl.get_parameter_framebuffer(glow::DRAW_FRAMEBUFFER_BINDING);
-            let drawn = self.draw_painted(pass, &mut painted, &mut tiles);
+            let drawn = self.draw_painted(pass, &mut painted, tiles);
             self.receivers.vertices.clear();
             tiles.triangles(&mut self.receivers.vertices);
-            self.painted_tiles = tiles;
             self.painted = painted;
             drawn?;
             let count = self.receivers.vertices.len() as i32;

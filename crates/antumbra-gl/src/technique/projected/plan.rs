@@ -4,6 +4,7 @@ use super::receivers::{Receivers, eye, facing, height, plane_model};
 use crate::Error;
 use crate::mesh_buffers::MeshCache;
 use crate::proxy::ProxyBuilder;
+use crate::results::Counts;
 use crate::scenery::Light;
 use crate::technique::Pass;
 use crate::technique::casters::{casters, planes};
@@ -63,8 +64,8 @@ pub(super) struct Plan {
     pub(super) posed: Vec<Posed>,
     /// Sorted by receiver.
     pub(super) draws: Vec<Draw>,
-    /// Of light, caster and receiver those looked at, and the triangles drawn for them, since the frame began.
-    pub(super) counts: (usize, usize),
+    /// Since the frame began: a pair is a light, a caster and a receiver, and polygons are triangles.
+    pub(super) counts: Counts,
 }
 
 impl Plan {
@@ -74,7 +75,7 @@ impl Plan {
     /// A [`crate::state::StateGuard`] is alive.
     pub(super) unsafe fn begin(&mut self, pass: &Pass<'_>, meshes: &mut MeshCache) -> Result<(), Error> {
         self.posed.clear();
-        self.counts = (0, 0);
+        self.counts = Counts::default();
         for caster in casters(pass) {
             // SAFETY: the caller's.
             unsafe { self.pose(pass, meshes, caster.mesh, caster.model, caster.id)? };
@@ -142,7 +143,7 @@ impl Plan {
                 }
                 let flatten = planar_projection(&placed.plane, l) * height(&placed.plane, l).recip();
                 for (caster, posed) in self.posed.iter().enumerate() {
-                    self.counts.0 += 1;
+                    self.counts.pairs += 1;
                     let own = posed.id != 0 && posed.id == placed.id;
                     if own
                         || posed.is_edge_on(l)
@@ -161,7 +162,8 @@ impl Plan {
                         continue;
                     }
                     tiles.touch(polygon);
-                    self.counts.1 += posed.count as usize / 3;
+                    self.counts.drawn += 1;
+                    self.counts.polygons += posed.count as usize / 3;
                     let flat_model = flatten * posed.model;
                     let plane = placed.plane.normal.extend(-placed.plane.offset);
                     self.draws.push(Draw {

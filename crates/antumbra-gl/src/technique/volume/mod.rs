@@ -12,8 +12,9 @@ mod packer;
 mod polygon;
 
 use super::options::{choices, options};
-use super::{About, Batch, Method, Pass, Refusal, Technique};
+use super::{About, Batch, Behavior, Method, Pass, Refusal, Technique};
 use crate::resources::{Target, UploadRing};
+use crate::results::Counts;
 use crate::scenery::Scenery;
 use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
 use crate::state::{Blend, RasterGuard, set_color_mask};
@@ -51,6 +52,8 @@ options! {
         pub counting: Counting = Counting::PerVolume, ();
     }
 }
+
+impl Behavior for Options {}
 
 /// What counts, and what writes where the count is not zero.
 pub(super) const PROGRAMS: &[ProgramSource] = &[
@@ -180,7 +183,7 @@ impl Method for State {
         Ok(())
     }
 
-    fn counts(&self) -> (usize, usize) {
+    fn counts(&self) -> Counts {
         self.packer.counts
     }
 

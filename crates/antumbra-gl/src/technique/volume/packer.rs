@@ -5,6 +5,7 @@ use super::boundary::{Boundary, Cap};
 use super::eye::{is_clear, layers};
 use super::polygon::{Eye, Front, front};
 use crate::proxy::{ProxyBuilder, crossing, nearest_end};
+use crate::results::Counts;
 use crate::technique::casters::{Caster, caster_of};
 use crate::technique::{Batch, Pass};
 use crate::tiles::TileGrid;
@@ -79,14 +80,14 @@ pub(super) struct Packer {
     pub(super) vertices: Vec<Vertex>,
     pub(super) tiles: Vec<[f32; 2]>,
     pub(super) draws: Vec<LightDraw>,
-    /// Pairs that were looked at, and polygons that are drawn, since the frame began.
-    pub(super) counts: (usize, usize),
+    /// Since the frame began.
+    pub(super) counts: Counts,
 }
 
 impl Packer {
     /// Takes the frame's occluders into view space.
     pub(super) fn begin(&mut self, pass: &Pass<'_>) {
-        self.counts = (0, 0);
+        self.counts = Counts::default();
         self.posed.clear();
         self.bounds_vs.clear();
         let to_view = &pass.view.view;
@@ -134,8 +135,10 @@ impl Packer {
             let first = self.vertices.len();
             self.light_tiles.reset(pass.view.size());
             for i in 0..self.posed.len() {
-                self.counts.0 += 1;
+                self.counts.pairs += 1;
+                let drawn_before = self.counts.polygons;
                 self.pack_pair(i, &place, &eye, pass, counting);
+                self.counts.drawn += usize::from(self.counts.polygons > drawn_before);
             }
             if self.vertices.len() == first {
                 continue;
@@ -248,7 +251,7 @@ impl Packer {
             None => away(p).extend(0.0),
         };
         let Self { boundary, vertices, counts, .. } = self;
-        let mut target = Polygons { vertices, count: &mut counts.1, eye, view, id, how };
+        let mut target = Polygons { vertices, count: &mut counts.polygons, eye, view, id, how };
         for &[a, b] in &boundary.edges {
             // Through the light and the edge.
             let Some(normal) = unit_cross(light.truncate() - a * light.w, b - a) else { continue };
@@ -274,7 +277,7 @@ impl Packer {
         let plane = plane.as_vec4().to_array();
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         self.vertices.extend(corners.map(|[x, y]| Vertex { position: [x, y, 1.0], plane, lift, id }));
-        self.counts.1 += 1;
+        self.counts.polygons += 1;
     }
 }
 
