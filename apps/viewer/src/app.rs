@@ -14,7 +14,7 @@ use winit::window::{Fullscreen, Window, WindowId};
 
 use crate::canvas::{Canvas, Side, View};
 use crate::gl_window::GlWindow;
-use crate::model::document::{Document, Source};
+use crate::model::document::Document;
 use crate::model::settings::{Antialiasing, Settings};
 use crate::model::{Model, Request};
 use crate::reference::Refinement;
@@ -231,8 +231,10 @@ impl ApplicationHandler<Wake> for App {
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(running) = &mut self.running else { return };
-        let response = running.state.on_window_event(&running.window.window, &event);
-        if response.repaint {
+        // To egui a frame that is due is a reason for another one.
+        if event != WindowEvent::RedrawRequested
+            && running.state.on_window_event(&running.window.window, &event).repaint
+        {
             running.window.window.request_redraw();
         }
         match event {
@@ -320,16 +322,9 @@ impl Running {
         self.title(model);
 
         let sides = self.draw(model, rect, scale, size)?;
-        for (id, deltas) in output.textures_delta.set {
-            for delta in deltas {
-                self.painter.set_texture(id, &delta);
-            }
-        }
         let primitives = self.context.tessellate(output.shapes, scale);
-        self.painter.paint_primitives(size, scale, &primitives);
-        for id in output.textures_delta.free {
-            self.painter.free_texture(id);
-        }
+        let mut textures = output.textures_delta;
+        self.painter.paint_and_update_textures(size, scale, &primitives, &mut textures);
         self.window.window.pre_present_notify();
         self.window.swap()?;
         if sides != self.seen.sides {

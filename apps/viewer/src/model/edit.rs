@@ -77,7 +77,7 @@ pub(crate) fn add_light(scene: &mut Scene, kind: LightKind, distance: f64) -> Op
     if scene.lights.len() >= limits::MAX_LIGHTS {
         return None;
     }
-    let name = scene.unique_name("light");
+    let name = scene.unique_light_name("light");
     let directional = matches!(kind, LightKind::Directional { .. });
     // As bright as the scale of the scene asks for: the same illuminance below it.
     let intensity = if directional { 2.0 } else { (2.0 * distance * distance).min(limits::MAX_BRIGHTNESS) };
@@ -93,7 +93,7 @@ pub(crate) fn add_object(scene: &mut Scene, kind: &str, shape: Shape) -> Option<
     if scene.objects.len() >= limits::MAX_OBJECTS || parts >= limits::MAX_PARTS {
         return None;
     }
-    let name = scene.unique_name(kind);
+    let name = scene.unique_object_name(kind);
     let translation = if shape == Shape::Plane { DVec3::ZERO } else { within(scene.camera.target + DVec3::Y) };
     scene.objects.push(Object {
         name,

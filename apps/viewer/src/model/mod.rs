@@ -364,13 +364,13 @@ impl Model {
         match self.chosen {
             Some(Item::Light(i)) if i < scene.lights.len() && scene.lights.len() < antumbra_scene::limits::MAX_LIGHTS => {
                 let mut light = scene.lights[i].clone();
-                light.name = scene.unique_name(&light.name);
+                light.name = scene.unique_light_name(&light.name);
                 edit::move_light(&mut light, step);
                 self.choose_after(Item::Light(scene.lights.len()), |s| s.lights.push(light));
             }
             Some(Item::Object(i)) if i < scene.objects.len() && scene.objects.len() < antumbra_scene::limits::MAX_OBJECTS => {
                 let mut object = scene.objects[i].clone();
-                object.name = scene.unique_name(&object.name);
+                object.name = scene.unique_object_name(&object.name);
                 edit::move_object(&mut object, step);
                 self.choose_after(Item::Object(scene.objects.len()), |s| s.objects.push(object));
             }

@@ -28,7 +28,7 @@ pub(crate) fn press(context: &Context, model: &mut Model) {
 
 /// Opens a file that was dropped on the window.
 pub(crate) fn drop_files(context: &Context, model: &mut Model) {
-    let dropped = context.input(|input| input.raw.dropped_files.first().and_then(|file| file.path.clone()));
+    let dropped = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
     if let Some(path) = dropped {
         model.before(Then::Show(Source::File(path)));
     }

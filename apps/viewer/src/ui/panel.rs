@@ -110,7 +110,7 @@ fn options(ui: &mut Ui, technique: &mut Technique) {
                     }
                 }
                 Allowed::Choice(choices) => {
-                    let id = ui.id().with(&option.key);
+                    let id = ui.scope_id().with(&option.key);
                     let combo = ComboBox::from_id_salt(id).selected_text(&option.value).show_ui(ui, |ui| {
                         for choice in choices {
                             let chosen = option.value == choice.name;

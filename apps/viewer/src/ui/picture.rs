@@ -17,7 +17,7 @@ const DIVIDER_REACH: f32 = 6.0;
 pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "picture"));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "picture"));
     if rect.width() < 1.0 || rect.height() < 1.0 {
         return rect;
     }

@@ -27,9 +27,11 @@ use crate::technique::Technique;
     version,
     about = "Exact shadows: renders scene files with OpenGL, and traces their ground truth on the CPU.",
     long_about = "Exact shadows: renders scene files with OpenGL, and traces their ground truth on the CPU.\n\n\
-        Without a command it renders the gallery, like `antumbra demo`.",
+        Without a command it opens the viewer, like `antumbra view`, or where there is no window system renders the \
+        gallery, like `antumbra demo`.",
     after_help = "Examples:\n  \
-        antumbra                                           the gallery, as PNG, in antumbra-demo/\n  \
+        antumbra                                           the viewer; without a display, the gallery as PNG\n  \
+        antumbra view scene.toml                           look at a scene, change it, compare techniques\n  \
         antumbra render scene.toml -o picture.png          one scene with OpenGL\n  \
         antumbra trace scene.toml -o truth.exr             the same, ray traced on the CPU\n  \
         antumbra animate scene.toml -o loop.apng           one round of all that moves\n  \
@@ -41,7 +43,7 @@ use crate::technique::Technique;
     args_conflicts_with_subcommands = true
 )]
 pub(crate) struct Cli {
-    /// What to do; the gallery when left out.
+    /// What to do; the viewer, or the gallery where there is no display, when left out.
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 }
@@ -49,6 +51,15 @@ pub(crate) struct Cli {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Look at a scene in a window, change it, and compare techniques side by side
+    #[cfg(feature = "viewer")]
+    #[command(after_help = "Examples:\n  \
+        antumbra view\n  \
+        antumbra view scene.toml\n  \
+        antumbra view scene.toml --technique map:filter=none --size 1600x900\n\n\
+        F1 in the window shows the keys. With --json each change of the state is a line on standard output:\n\
+        camera, lights, objects, settings, and where each control is.")]
+    View(ViewArgs),
     /// Render the gallery: scenes that come with the program
     #[command(after_help = "Examples:\n  \
         antumbra demo\n  \
@@ -192,6 +203,27 @@ pub(crate) struct PictureArgs {
     #[arg(long, value_name = "DIR")]
     pub(crate) visibility: Option<PathBuf>,
     /// Print one JSON object on standard output instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Arguments of `antumbra view`.
+#[cfg(feature = "viewer")]
+#[derive(Debug, Default, clap::Args)]
+pub(crate) struct ViewArgs {
+    /// The scene file; without one, what was looked at last, or else the first scene of the gallery
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+    /// How shadows are found at first: a technique with options, as for `antumbra render`
+    #[arg(long, value_name = "NAME[:key=value..]", value_parser = Technique::parse)]
+    pub(crate) technique: Option<Technique>,
+    /// Size of the window
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
+    pub(crate) size: Option<Size>,
+    /// Begin as at the first start: forget settings, scene and window size
+    #[arg(long)]
+    pub(crate) fresh: bool,
+    /// Print the state as a line of JSON on standard output whenever it changes
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -9,6 +9,8 @@ mod info;
 mod look;
 mod render;
 mod trace;
+#[cfg(feature = "viewer")]
+mod view;
 
 pub(crate) use bench::FigureName;
 
@@ -30,7 +32,9 @@ const MAX_VISIBILITY: u64 = 1 << 29;
 /// # Errors
 /// Whatever ends the command early.
 pub(crate) fn run(cli: Cli) -> Result<(), CliError> {
-    match cli.command.unwrap_or_else(|| Command::Demo(DemoArgs::default())) {
+    match cli.command.unwrap_or_else(default_command) {
+        #[cfg(feature = "viewer")]
+        Command::View(arguments) => view::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Animate(arguments) => animate::run(&arguments),
@@ -40,6 +44,15 @@ pub(crate) fn run(cli: Cli) -> Result<(), CliError> {
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
     }
+}
+
+/// The viewer where there is a display, else the gallery.
+fn default_command() -> Command {
+    #[cfg(feature = "viewer")]
+    if view::is_possible() {
+        return Command::View(crate::args::ViewArgs::default());
+    }
+    Command::Demo(DemoArgs::default())
 }
 
 /// One scene to one picture, everything about it checked.
