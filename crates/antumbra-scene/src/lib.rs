@@ -53,6 +53,7 @@
 
 mod bounds;
 mod camera;
+mod degrees;
 mod error;
 pub mod limits;
 mod mesh;
@@ -60,14 +61,21 @@ mod mesh_gltf;
 mod mesh_obj;
 mod model;
 mod motion;
+mod names;
 mod parse;
 mod parse_light;
 mod parse_motion;
 mod parse_object;
 mod parse_shape;
+mod save;
 mod table;
 mod text;
+mod tree;
+mod unit;
+mod update;
+mod update_list;
 mod values;
+mod write;
 
 pub use error::SceneError;
 pub use model::*;
