@@ -1,5 +1,7 @@
 //! A scene as the tables, lists and values of its file: what writing and comparing files go by.
 
+use core::hash::{Hash, Hasher};
+
 use glam::{DQuat, DVec3};
 
 use crate::degrees::degrees;
@@ -7,7 +9,7 @@ use crate::unit::{perpendicular, unit, unit_rotation};
 use crate::{Camera, Image, Light, LightKind, Motion, Object, Part, Pose, Scene, Shape};
 
 /// A value of a scene file. Equal if files that hold them give the same scene to the bit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Node {
     Number(Number),
     Integer(u32),
@@ -18,7 +20,7 @@ pub(crate) enum Node {
 }
 
 /// A key of a table, with its value.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Entry {
     pub(crate) key: &'static str,
     pub(crate) value: Node,
@@ -33,6 +35,14 @@ pub(crate) struct Number(pub(crate) f64);
 impl PartialEq for Number {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_bits() == other.0.to_bits()
+    }
+}
+
+impl Eq for Number {}
+
+impl Hash for Number {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.to_bits().hash(state);
     }
 }
 

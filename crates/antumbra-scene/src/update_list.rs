@@ -1,15 +1,17 @@
 //! Changing lists of a scene file: which entry is which, and putting them in order.
 
-use std::collections::HashMap;
+use core::hash::Hash;
+use std::collections::{BTreeSet, HashMap};
 
 use toml_edit::{Array, ArrayOfTables, Decor, Item, Table, Value};
 
-use crate::tree::Node;
+use crate::tree::{Entry, Node};
 use crate::update::{prefix, replace, update_entries, update_value};
 use crate::write::{table, value};
 
-/// Most comparisons for finding entries that moved in a long list; beyond it they count as new.
-const MOST_COMPARISONS: usize = 1 << 20;
+/// How many keys of a light or object may differ beside its name for it to count as the one that was
+/// there.
+const MOST_CHANGES: usize = 2;
 
 /// Makes an array that says `old` say `new`.
 pub(crate) fn update_array(array: &mut Array, old: &[Node], new: &[Node]) {
@@ -36,11 +38,11 @@ pub(crate) fn update_array(array: &mut Array, old: &[Node], new: &[Node]) {
             (true, false) => " ",
             _ => before,
         };
-        entry.decor_mut().set_prefix(format!("{}{before}", layout.comment(line)));
+        entry.decor_mut().set_prefix(layout.after_comment(line, before));
         updated.push_formatted(entry);
         line = next_line;
     }
-    updated.set_trailing(format!("{}{}", layout.comment(line), layout.end));
+    updated.set_trailing(layout.after_comment(line, &layout.end));
     updated.set_trailing_comma(layout.comma);
     *updated.decor_mut() = layout.around;
     *array = updated;
@@ -79,9 +81,11 @@ impl Layout {
         Self { around, comments, before, end, indent, comma }
     }
 
-    /// The comment that ends a line; none of a new entry.
-    fn comment(&self, line: usize) -> &str {
-        self.comments.get(line).map(String::as_str).unwrap_or_default()
+    /// Text after the comment that ends a line, which a new entry has not.
+    fn after_comment(&self, line: usize, text: &str) -> String {
+        let comment = self.comments.get(line).map(String::as_str).unwrap_or_default();
+        let end = if comment.is_empty() || text.starts_with('\n') { "" } else { "\n" };
+        format!("{comment}{end}{text}")
     }
 }
 
@@ -142,44 +146,59 @@ fn origins(old: &[Node], new: &[Node]) -> Vec<Option<usize>> {
 /// By name; then, of what was renamed, by all the rest; then by the place in the list, if nearly all of
 /// the rest is the same.
 fn named_origins(old: &[Node], new: &[Node]) -> Vec<Option<usize>> {
-    let mut by_name: HashMap<&str, usize> =
+    let mut gone: HashMap<&str, usize> =
         old.iter().enumerate().filter_map(|(i, node)| Some((node.name()?, i))).collect();
     let mut origins: Vec<Option<usize>> =
-        new.iter().map(|node| node.name().and_then(|name| by_name.remove(name))).collect();
-    let mut gone: Vec<usize> = by_name.into_values().collect();
-    gone.sort_unstable();
-    let unknown: Vec<usize> = (0..new.len()).filter(|j| origins[*j].is_none()).collect();
-    if gone.len().saturating_mul(unknown.len()) > MOST_COMPARISONS {
-        return origins;
+        new.iter().map(|node| node.name().and_then(|name| gone.remove(name))).collect();
+    let mut gone: BTreeSet<usize> = gone.into_values().collect();
+    let mut alike = Places::new(gone.iter().map(|i| (*i, nameless(&old[*i]))));
+    for (origin, node) in origins.iter_mut().zip(new).filter(|(origin, _)| origin.is_none()) {
+        *origin = alike.take(&nameless(node), 0);
+        if let Some(i) = origin {
+            gone.remove(i);
+        }
     }
-    for enough in [Likeness::Same, Likeness::Near] {
-        for j in &unknown {
-            if origins[*j].is_some() {
-                continue;
-            }
-            let found = gone.iter().position(|i| match enough {
-                Likeness::Same => changes(&old[*i], &new[*j]) == 0,
-                Likeness::Near => i == j && old.len() == new.len() && changes(&old[*i], &new[*j]) <= 2,
-            });
-            origins[*j] = found.map(|at| gone.remove(at));
+    if old.len() == new.len() {
+        for (i, origin) in origins.iter_mut().enumerate().filter(|(_, origin)| origin.is_none()) {
+            let near = changes(&old[i], &new[i]) <= MOST_CHANGES;
+            *origin = (near && gone.remove(&i)).then_some(i);
         }
     }
     origins
 }
 
-#[derive(Clone, Copy)]
-enum Likeness {
-    Same,
-    Near,
+/// What a table says beside the name.
+fn nameless(node: &Node) -> Vec<&Entry> {
+    node.entries().iter().filter(|entry| entry.key != "name").collect()
 }
 
 /// How many keys beside the name differ.
 fn changes(old: &Node, new: &Node) -> usize {
-    let (old, new) = (old.entries(), new.entries());
-    let same = |entry: &&crate::tree::Entry| {
-        entry.key != "name" && old.iter().any(|o| o.key == entry.key && o.value == entry.value)
-    };
-    old.len().max(new.len()) - 1 - new.iter().filter(same).count()
+    let (old, new) = (nameless(old), nameless(new));
+    let same = new.iter().filter(|n| old.iter().any(|o| o.key == n.key && o.value == n.value)).count();
+    old.len().max(new.len()) - same
+}
+
+/// Where there are things that are the same.
+struct Places<T>(HashMap<T, BTreeSet<usize>>);
+
+impl<T: Eq + Hash> Places<T> {
+    fn new(things: impl Iterator<Item = (usize, T)>) -> Self {
+        let mut places: HashMap<T, BTreeSet<usize>> = HashMap::new();
+        for (i, thing) in things {
+            places.entry(thing).or_default().insert(i);
+        }
+        Self(places)
+    }
+
+    /// The first place of such a thing from `next` on, or else the first one, which is then no longer
+    /// there.
+    fn take(&mut self, thing: &T, next: usize) -> Option<usize> {
+        let places = self.0.get_mut(thing)?;
+        let place = places.range(next..).next().or_else(|| places.first()).copied()?;
+        places.remove(&place);
+        Some(place)
+    }
 }
 
 /// Of entries without names: the same ones at both ends, and between them as [`middle_origins`].
@@ -196,24 +215,13 @@ fn sequence_origins(old: &[Node], new: &[Node]) -> Vec<Option<usize>> {
 /// The same ones where they were, after the one before, or anywhere; then, if nothing was moved, those
 /// between in order, which were changed.
 fn middle_origins(old: &[Node], new: &[Node]) -> Vec<Option<usize>> {
-    let mut origins = vec![None; new.len()];
-    if old.len().saturating_mul(new.len()) <= MOST_COMPARISONS {
-        let mut used = vec![false; old.len()];
-        if old.len() == new.len() {
-            for (i, origin) in origins.iter_mut().enumerate().filter(|(i, _)| old[*i] == new[*i]) {
-                *origin = Some(i);
-                used[i] = true;
-            }
-        }
-        let mut next = 0;
-        for (origin, node) in origins.iter_mut().zip(new) {
-            let same = |i: &usize| !used[*i] && old[*i] == *node;
-            *origin = origin.or_else(|| (next..old.len()).chain(0..next).find(same));
-            if let Some(i) = *origin {
-                used[i] = true;
-                next = i + 1;
-            }
-        }
+    let kept = |i: usize| old.len() == new.len() && old[i] == new[i];
+    let mut origins: Vec<Option<usize>> = (0..new.len()).map(|i| kept(i).then_some(i)).collect();
+    let mut places = Places::new(old.iter().enumerate().filter(|(i, _)| !kept(*i)));
+    let mut next = 0;
+    for (origin, node) in origins.iter_mut().zip(new) {
+        *origin = origin.or_else(|| places.take(&node, next));
+        next = origin.map_or(next, |i| i + 1);
     }
     if origins.iter().flatten().is_sorted() {
         fill(&mut origins, old.len());

@@ -110,6 +110,19 @@ fn a_mesh_that_is_gone_does_not_stop_saving() {
     assert!(read(&to).contains("one/parts/tri.obj"), "{}", read(&to));
 }
 
+#[test]
+fn a_file_is_replaced_and_not_written_into() {
+    let folder = folder();
+    let (one, before) = (folder.path().join("one/scene.toml"), folder.path().join("before.toml"));
+    // Another name of the file that is there: who reads it meanwhile sees all of it.
+    fs::hard_link(&one, &before).expect("a link");
+    let mut scene = load(&one);
+    scene.camera.fov_y = 0.5;
+    scene.save(&one, Some(&one)).expect("the file itself");
+    assert_eq!(read(&before), FILE, "the old file is whole");
+    assert_eq!(load(&one), scene, "and the new one is in its place");
+}
+
 #[cfg(unix)]
 #[test]
 fn links_and_permissions_stay() {

@@ -180,6 +180,9 @@ fn parts_come_and_go() {
     assert_only(|s| s.objects[1].parts.reverse(), &[(&format!("{crown}{trunk}"), &swapped)]);
     let text = changed(FILE, |s| s.objects[2].parts.push(ball));
     assert!(text.contains("[[object]]               # the ball\nname = \"ball\"\nparts = [\n"), "{text}");
+    let short = "camera = { eye = [0, 2, 5] }\nobject = [{ name = 'o', parts = [{ shape = { type = 'disc', radius = 1 } }, # a disc\n{ shape = { type = 'plane' } }] }]";
+    let text = changed(short, |s| s.objects[0].parts.reverse());
+    assert!(text.contains("radius = 1 } } # a disc\n]"), "{text}");
     let text = changed(FILE, |s| s.objects[1].parts.truncate(1));
     assert!(text.contains("# the crown\n  { shape"), "{text}");
 }
