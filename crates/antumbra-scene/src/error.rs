@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::text::{one_line, quoted};
 
-/// Why a scene could not be read.
+/// Why a scene could not be read or saved.
 ///
 /// Displays as one line, `file:line:column: what is wrong; what to write instead`. Lines and columns
-/// count from 1, columns in characters. A file that cannot be read at all has neither.
+/// count from 1, columns in characters. A file that cannot be read at all, or not be written, has neither.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{}: {what}; {instead}", one_line(&file.to_string_lossy()), Place(*place))]
 pub struct SceneError {
@@ -23,7 +23,7 @@ impl SceneError {
         &self.file
     }
 
-    /// Line and column, from 1; `None` if the file could not be read.
+    /// Line and column, from 1; `None` if the file could not be read or written.
     pub fn place(&self) -> Option<(usize, usize)> {
         self.place
     }
@@ -78,6 +78,16 @@ pub(crate) fn unreadable(file: &Path, error: &std::io::Error) -> SceneError {
         place: None,
         what: format!("the scene file cannot be read: {}", one_line(&error.to_string())),
         instead: "give the path of a scene file (TOML)".to_owned(),
+    }
+}
+
+/// The error of a scene that cannot be saved.
+pub(crate) fn unsaved(file: &Path, why: impl core::fmt::Display, instead: impl Into<String>) -> SceneError {
+    SceneError {
+        file: file.to_owned(),
+        place: None,
+        what: format!("the scene cannot be saved: {}", one_line(&why.to_string())),
+        instead: one_line(&instead.into()),
     }
 }
 

@@ -1,9 +1,12 @@
-//! Scene files of the antumbra shadow library: what a scene is, reading one, and the scene at a time.
+//! Scene files of the antumbra shadow library: what a scene is, reading and writing one, and the scene at
+//! a time.
 //!
 //! A [`Scene`] is read from TOML by [`Scene::load`] and validated on the way: whatever comes back can
 //! be drawn, and whatever cannot be is a [`SceneError`] that names the file, line and column, says
 //! what is wrong and what to write instead. [`Scene::moment`] places everything in the world at a
-//! time. Units are metres, seconds and linear RGB; angles are degrees in the file and radians here.
+//! time. [`Scene::save`] writes it, and leaves what a person wrote as it is where it still holds;
+//! [`Scene::validate`] tells whether a scene that was changed in memory is one that a file can hold. Units
+//! are metres, seconds and linear RGB; angles are degrees in the file and radians here.
 //!
 //! ```
 //! use antumbra_scene::Scene;
@@ -33,6 +36,12 @@
 //!     "ball.toml:13:37: \"radius\" of \"shape\" of object \"ball\" is -0.5, but a length is above zero; \
 //!      write radius = 0.5"
 //! );
+//!
+//! let mut dimmed = scene.clone();
+//! dimmed.lights[0].intensity = 60.0;
+//! assert_eq!(dimmed.validate(), Ok(()));
+//! assert_eq!(dimmed.update_toml(text), text.replace("120.0", "60.0"), "one number has changed");
+//! assert_eq!(Scene::parse(&dimmed.to_toml(), "ball.toml".as_ref())?, dimmed);
 //! # Ok::<(), antumbra_scene::SceneError>(())
 //! ```
 //!
@@ -53,6 +62,7 @@
 
 mod bounds;
 mod camera;
+mod degrees;
 mod error;
 pub mod limits;
 mod mesh;
@@ -60,14 +70,21 @@ mod mesh_gltf;
 mod mesh_obj;
 mod model;
 mod motion;
+mod names;
 mod parse;
 mod parse_light;
 mod parse_motion;
 mod parse_object;
 mod parse_shape;
+mod save;
 mod table;
 mod text;
+mod tree;
+mod unit;
+mod update;
+mod update_list;
 mod values;
+mod write;
 
 pub use error::SceneError;
 pub use model::*;

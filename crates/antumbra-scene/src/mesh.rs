@@ -41,6 +41,8 @@ impl MeshError {
 /// The meshes of one scene: each file is read once, and all of them share a limit on size.
 pub(crate) struct Meshes<'a> {
     folder: Option<&'a Path>,
+    /// Whether files are read.
+    read: bool,
     loaded: HashMap<String, Arc<Mesh>>,
     vertices_left: usize,
     triangles_left: usize,
@@ -51,10 +53,16 @@ impl<'a> Meshes<'a> {
     pub(crate) fn beside(scene_file: &'a Path) -> Self {
         Self {
             folder: scene_file.parent(),
+            read: true,
             loaded: HashMap::new(),
             vertices_left: MAX_MESH_ELEMENTS,
             triangles_left: MAX_MESH_ELEMENTS,
         }
+    }
+
+    /// Meshes that are not read: their paths are checked as far as the text tells, and they are empty.
+    pub(crate) fn unread() -> Self {
+        Self { read: false, ..Self::beside(Path::new("")) }
     }
 
     /// The mesh at `path`, as the scene file wrote it.
@@ -66,6 +74,10 @@ impl<'a> Meshes<'a> {
         let extension = file.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
         let mut builder = Builder::new(self.vertices_left, self.triangles_left);
         match extension.as_str() {
+            "obj" | "gltf" | "glb" if !self.read => {
+                let mesh = Mesh { path: path.to_owned(), positions: Vec::new(), triangles: Vec::new() };
+                return Ok(Arc::new(mesh));
+            }
             "obj" => mesh_obj::read(&read_file(&file)?, &mut builder)?,
             "gltf" | "glb" => mesh_gltf::read(&read_file(&file)?, file.parent(), &mut builder)?,
             _ => {

@@ -31,6 +31,19 @@ impl Motion {
             }
         }
     }
+
+    /// The same motion of something that is moved `by` so many metres: the axis of an orbit, or every
+    /// point of a path, is moved.
+    pub fn translated(&self, by: DVec3) -> Self {
+        match self {
+            Self::Orbit { center, axis, period } => {
+                Self::Orbit { center: *center + by, axis: *axis, period: *period }
+            }
+            Self::Path { points, period } => {
+                Self::Path { points: points.iter().map(|p| *p + by).collect(), period: *period }
+            }
+        }
+    }
 }
 
 /// Which part of a period `time` falls on, in [0, 1]. A negative period runs backwards; 0 for a
@@ -142,6 +155,16 @@ mod tests {
             }
             for t in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                 assert_eq!(m.position(rest, t), m.position(rest, 0.0), "{t} counts as 0");
+            }
+        }
+    }
+
+    #[test]
+    fn a_translated_motion_is_the_same_elsewhere() {
+        let (rest, by) = (DVec3::new(3.0, 5.0, 3.0), DVec3::new(-1.0, 0.5, 7.0));
+        for m in [orbit(8.0), orbit(-3.0), square()] {
+            for time in [0.0, 0.7, 3.1, -2.0] {
+                assert_close(m.translated(by).position(rest + by, time), m.position(rest, time) + by);
             }
         }
     }

@@ -54,6 +54,16 @@ impl Scene {
     /// # Errors
     /// If the text is not a valid scene.
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        Self::parse_with(text, file, Meshes::beside(file))
+    }
+
+    /// As [`Scene::parse`], without reading meshes: each has its path and nothing else. For what depends
+    /// on the text alone.
+    pub(crate) fn parse_text(text: &str, file: &Path) -> Result<Self, SceneError> {
+        Self::parse_with(text, file, Meshes::unread())
+    }
+
+    fn parse_with(text: &str, file: &Path, meshes: Meshes<'_>) -> Result<Self, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = Source { file, text };
         if text.len() > MAX_SCENE_BYTES {
@@ -72,7 +82,7 @@ impl Scene {
                 "see https://toml.io for the syntax",
             )
         })?;
-        scene(&Table::root(&source, table.get_ref()))
+        scene(&Table::root(&source, table.get_ref()), meshes)
     }
 }
 
@@ -98,7 +108,7 @@ fn refuse_deep_keys(source: &Source<'_>) -> Result<(), SceneError> {
     Ok(())
 }
 
-fn scene(root: &Table<'_>) -> Result<Scene, SceneError> {
+fn scene(root: &Table<'_>, meshes: Meshes<'_>) -> Result<Scene, SceneError> {
     root.allow(&["ambient", "camera", "image", "light", "object"], |key| match key {
         "lights" | "objects" => {
             let one = &key[..key.len() - 1];
@@ -120,7 +130,7 @@ fn scene(root: &Table<'_>) -> Result<Scene, SceneError> {
         Some(field) => image(&field)?,
         None => Image::default(),
     };
-    Ok(Scene { ambient, camera, image, lights: lights(root)?, objects: objects(root)? })
+    Ok(Scene { ambient, camera, image, lights: lights(root)?, objects: objects(root, meshes)? })
 }
 
 fn misplaced(key: &str, table: &str) -> Option<(String, String)> {
@@ -196,8 +206,7 @@ fn lights(root: &Table<'_>) -> Result<Vec<Light>, SceneError> {
     Ok(lights)
 }
 
-fn objects(root: &Table<'_>) -> Result<Vec<Object>, SceneError> {
-    let mut meshes = Meshes::beside(root.source.file);
+fn objects(root: &Table<'_>, mut meshes: Meshes<'_>) -> Result<Vec<Object>, SceneError> {
     let mut seen = HashMap::new();
     let mut objects = Vec::new();
     let mut parts = 0;

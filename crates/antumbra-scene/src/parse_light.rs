@@ -6,6 +6,7 @@ use crate::limits::{MAX_BRIGHTNESS, MAX_LIGHT_COLOR};
 use crate::parse_motion::motion;
 use crate::table::Table;
 use crate::text::{any_of, quoted};
+use crate::unit::perpendicular;
 use crate::values::plain;
 use crate::{Light, LightKind, SceneError};
 
@@ -99,7 +100,7 @@ fn light_kind(table: &Table<'_>, kind: &str) -> Result<LightKind, SceneError> {
             }
             LightKind::Rectangle {
                 direction,
-                right: right.reject_from_normalized(direction).normalize(),
+                right: perpendicular(right, direction),
                 width: length("width", "width = 1.0")?,
                 height: length("height", "height = 1.0")?,
             }

@@ -7,6 +7,7 @@ use crate::SceneError;
 use crate::limits::{MAX_COORDINATE, MAX_LENGTH, MAX_NAME_BYTES, MIN_LENGTH};
 use crate::table::Field;
 use crate::text::{any_of, nearest, quoted, shortened};
+use crate::unit::{unit, unit_rotation};
 
 /// Shortest vector and quaternion that still has a direction: far above the rounding of numbers a
 /// person writes, and its square is a normal float64.
@@ -113,7 +114,7 @@ impl Field<'_> {
         Ok(lengths)
     }
 
-    /// A direction of any length but zero; comes back as a unit vector.
+    /// A direction of any length but zero; comes back as a unit vector, and as it is if it is one.
     pub(crate) fn direction(&self, example: &str) -> Result<DVec3, SceneError> {
         let vector = self.point(example)?;
         if vector.length() < MIN_NORM {
@@ -122,10 +123,11 @@ impl Field<'_> {
                 format!("write {example}"),
             ));
         }
-        Ok(vector.normalize())
+        Ok(unit(vector))
     }
 
-    /// A quaternion x y z w of any length but zero; comes back as a unit quaternion.
+    /// A quaternion x y z w of any length but zero; comes back as a unit quaternion, and as it is if it
+    /// is one.
     pub(crate) fn rotation(&self) -> Result<DQuat, SceneError> {
         let example = "a quaternion x y z w, such as [0.0, 0.0, 0.0, 1.0] for no rotation";
         let q = DQuat::from_array(self.numbers(-MAX_COORDINATE, MAX_COORDINATE, example)?);
@@ -133,7 +135,7 @@ impl Field<'_> {
             return Err(self
                 .error(format!("{} is zero, which is no rotation", self.what), format!("write {example}")));
         }
-        Ok(q.normalize())
+        Ok(unit_rotation(q))
     }
 
     /// `true` or `false`.
@@ -164,14 +166,7 @@ impl Field<'_> {
     pub(crate) fn name(&self) -> Result<&str, SceneError> {
         let example = "a short name, such as \"ball\"";
         let name = self.string(example)?;
-        let wrong = if name.trim().is_empty() {
-            Some("is empty".to_owned())
-        } else if name.len() > MAX_NAME_BYTES {
-            Some(format!("has {} bytes, more than {MAX_NAME_BYTES}", name.len()))
-        } else {
-            name.chars().find(|c| c.is_control()).map(|c| format!("holds the control character {c:?}"))
-        };
-        match wrong {
+        match wrong_in_name(name) {
             Some(wrong) => Err(self.error(format!("{} {wrong}", self.what), format!("write {example}"))),
             None => Ok(name),
         }
@@ -180,20 +175,38 @@ impl Field<'_> {
     /// A name that is a file name on every usual system.
     pub(crate) fn file_name(&self) -> Result<&str, SceneError> {
         let name = self.name()?;
-        let wrong = if name == "." || name == ".." {
-            Some("means a folder".to_owned())
-        } else if name.ends_with('.') || name.starts_with(' ') || name.ends_with(' ') {
-            Some("begins or ends with a dot or space".to_owned())
-        } else {
-            name.chars().find(|c| r#"/\<>:"|?*"#.contains(*c)).map(|c| format!("holds the character {c}"))
-        };
-        match wrong {
+        match wrong_in_file_name(name) {
             Some(wrong) => Err(self.error(
                 format!("{} {wrong}, but a light's name is used as a file name", self.what),
                 "write a name of letters, digits, - and _, such as \"key\"",
             )),
             None => Ok(name),
         }
+    }
+}
+
+/// Characters that some system allows in no file name.
+pub(crate) const NOT_IN_FILE_NAMES: &str = r#"/\<>:"|?*"#;
+
+/// What is wrong with the name of a light or an object.
+fn wrong_in_name(name: &str) -> Option<String> {
+    if name.trim().is_empty() {
+        Some("is empty".to_owned())
+    } else if name.len() > MAX_NAME_BYTES {
+        Some(format!("has {} bytes, more than {MAX_NAME_BYTES}", name.len()))
+    } else {
+        name.chars().find(|c| c.is_control()).map(|c| format!("holds the control character {c:?}"))
+    }
+}
+
+/// What else is wrong with a name that is a file name.
+fn wrong_in_file_name(name: &str) -> Option<String> {
+    if name == "." || name == ".." {
+        Some("means a folder".to_owned())
+    } else if name.ends_with('.') || name.starts_with(' ') || name.ends_with(' ') {
+        Some("begins or ends with a dot or space".to_owned())
+    } else {
+        name.chars().find(|c| NOT_IN_FILE_NAMES.contains(*c)).map(|c| format!("holds the character {c}"))
     }
 }
 

@@ -8,6 +8,8 @@
 //! ```
 
 mod common;
+#[path = "common/written.rs"]
+mod written;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -45,6 +47,7 @@ fn survives(bytes: &[u8]) -> bool {
             for time in [0.0, 1.3, -1e300, f64::NAN] {
                 common::assert_sound(scene, time);
             }
+            written::assert_written(scene, core::str::from_utf8(bytes).expect("a scene is text"));
         }
         Err(error) => {
             let line = error.to_string();
