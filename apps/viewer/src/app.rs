@@ -41,6 +41,9 @@ pub(crate) fn run(options: Options) -> Result<(), ViewerError> {
     let events = EventLoop::<Wake>::with_user_event()
         .build()
         .map_err(|error| ViewerError::NoDisplay(error.to_string()))?;
+    if options.json {
+        put(&report::keys())?;
+    }
     let proxy = events.create_proxy();
     let size = options.size.or(remembered.size).unwrap_or([1280, 800]);
     let mut app = App {
@@ -117,6 +120,8 @@ struct Running {
     vsync: bool,
     hidden: bool,
     printed: Option<String>,
+    /// Frames drawn so far.
+    frames: u64,
 }
 
 /// How long after a change more samples are worth their time.
@@ -175,6 +180,7 @@ impl App {
             vsync: self.model.settings.vsync,
             hidden: false,
             printed: None,
+            frames: 0,
         })
     }
 
@@ -327,6 +333,7 @@ impl Running {
         self.painter.paint_and_update_textures(size, scale, &primitives, &mut textures);
         self.window.window.pre_present_notify();
         self.window.swap()?;
+        self.frames += 1;
         if sides != self.seen.sides {
             // What is said of a picture is said in the frame after it.
             self.seen.sides = sides;
@@ -437,16 +444,24 @@ impl Running {
     /// Prints the state if it is not what was printed last.
     fn print(&mut self, model: &Model, rect: [i32; 4], size: [u32; 2], scale: f32) -> Result<(), ViewerError> {
         let top = size[1] as i32 - rect[1] - rect[3];
-        let state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
+        let mut state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
+        state["fullscreen"] = self.window.window.fullscreen().is_some().into();
+        state["input"] = self.context.input(report::input);
         let line = state.to_string();
         if self.printed.as_ref() == Some(&line) {
             return Ok(());
         }
-        let mut out = std::io::stdout().lock();
-        writeln!(out, "{line}").and_then(|()| out.flush()).map_err(ViewerError::Stdout)?;
         self.printed = Some(line);
-        Ok(())
+        // A frame that looks like the one before is not worth a line.
+        state["frames"] = self.frames.into();
+        put(&state)
     }
+}
+
+/// Writes a line.
+fn put(line: &serde_json::Value) -> Result<(), ViewerError> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{line}").and_then(|()| out.flush()).map_err(ViewerError::Stdout)
 }
 
 impl Drop for Running {
