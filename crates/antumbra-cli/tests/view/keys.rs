@@ -46,7 +46,7 @@ fn moves(v: &mut Viewer<'_>, key: &str, pointer: &str, by: DVec3) {
     };
     v.press_for(key, &format!("{pointer} by {by}"), near);
     let [x, y, w, h] = v.picture().map(|x| x as usize);
-    v.see(&format!("{key} moves {pointer}"), |now| match now.difference(&before.1, [x, y, w, h]) {
+    v.see(&format!("{key} moves {pointer}"), |_, now| match now.difference(&before.1, [x, y, w, h]) {
         0..50 => Err("the same as before".into()),
         _ => Ok(()),
     });
@@ -93,7 +93,7 @@ fn objects(v: &mut Viewer<'_>) {
         let before = v.shot();
         v.press_for(key, shape, |state| state["objects"][1]["shapes"] == json!([shape]));
         let [x, y, w, h] = v.picture().map(|x| x as usize);
-        v.see(shape, |now| match now.difference(&before, [x, y, w, h]) {
+        v.see(shape, |_, now| match now.difference(&before, [x, y, w, h]) {
             0..200 => Err("the same as before".into()),
             _ => Ok(()),
         });

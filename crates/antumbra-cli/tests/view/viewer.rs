@@ -294,13 +294,23 @@ impl Viewer<'_> {
         self.click_at(middle(&control));
     }
 
-    /// Opens a menu of the bar, or a list to choose from, and clicks an entry.
+    /// Clicks one after another: a menu of the bar, or a list to choose from, and what it opens.
     #[track_caller]
-    pub(crate) fn pick(&mut self, (role, label): (&str, &str), entry: &str) {
-        let before = self.control(role, label, 0);
-        self.click_at(middle(&before));
-        let entries = self.control("Button", entry, 0);
-        self.click_at(middle(&entries));
+    pub(crate) fn pick(&mut self, controls: &[(&str, &str)]) {
+        for (role, label) in controls {
+            self.click(role, label);
+        }
+    }
+
+    /// Switches off the marks that are drawn over the picture.
+    #[track_caller]
+    pub(crate) fn without_marks(&mut self) {
+        self.pick(&[("Button", "View"), ("CheckBox", "Marks")]);
+        self.wait("no marks", |state| state["settings"]["marks"] == false);
+        self.press("Escape");
+        self.wait("the menu is closed", |state| {
+            state["controls"].as_array().is_some_and(|all| all.iter().all(|c| c["label"] != "Marks"))
+        });
     }
 
     // What is seen.
@@ -340,13 +350,18 @@ impl Viewer<'_> {
     /// Waits until the window shows what is wanted: the server may be a little behind the program. Fails with what was
     /// said last.
     #[track_caller]
-    pub(crate) fn see<T>(&mut self, what: &str, mut wanted: impl FnMut(&Shot) -> Result<T, String>) -> T {
+    pub(crate) fn see<T>(&mut self, what: &str, mut wanted: impl FnMut(&Self, &Shot) -> Result<T, String>) -> T {
         let end = Instant::now() + Duration::from_secs(10);
         loop {
             let shot = self.shot();
-            match wanted(&shot) {
+            match wanted(self, &shot) {
                 Ok(found) => return found,
-                Err(why) => assert!(Instant::now() < end, "not seen: {what}: {why}"),
+                Err(why) if Instant::now() < end => drop(why),
+                Err(why) => {
+                    let file = std::env::temp_dir().join("antumbra-view-failed.png");
+                    shot.write(&file);
+                    panic!("not seen: {what}: {why}; {} shows it", file.display());
+                }
             }
             std::thread::sleep(Duration::from_millis(20));
         }
