@@ -9,12 +9,13 @@ pub(crate) mod pick;
 pub(crate) mod settings;
 pub(crate) mod way;
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use antumbra::glam::DVec3;
 use antumbra::technique::composite::{Component, components};
-use antumbra_scene::{Camera, Light, Scene};
+use antumbra_scene::{Camera, Light, Motion, Scene};
 
 use crate::GalleryScene;
 use clock::Clock;
@@ -68,6 +69,9 @@ pub(crate) struct Message {
     pub(crate) is_error: bool,
 }
 
+/// Motions of things that were told to stand still, by kind and name, for when they move again.
+pub(crate) type Parked = HashMap<(&'static str, String), Motion>;
+
 /// Which component of the chosen light the keys move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
@@ -93,6 +97,8 @@ pub(crate) struct Model {
     pub(crate) chosen: Option<Item>,
     /// Components that were moved: for each such light all but the central one, from its position.
     pub(crate) components: Vec<Component>,
+    /// Motions that were taken away.
+    pub(crate) parked: Parked,
     /// What is asked.
     pub(crate) dialog: Option<Dialog>,
     /// What was said last.
@@ -119,6 +125,7 @@ impl Model {
             component: None,
             chosen: None,
             components: Vec::new(),
+            parked: Parked::default(),
             dialog: None,
             message: None,
             requests: Vec::new(),
@@ -246,6 +253,7 @@ impl Model {
                 self.component = None;
                 self.chosen = None;
                 self.components.clear();
+                self.parked.clear();
                 self.message = None;
             }
             Err(error) => self.complain(error),

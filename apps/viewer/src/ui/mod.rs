@@ -1,7 +1,10 @@
 //! The interface: what is round the picture and over it, and what pointer and keys do.
 
+mod fields;
 mod keys;
+mod lights;
 mod menu;
+mod objects;
 pub(crate) mod overlay;
 mod panel;
 mod picture;
@@ -9,11 +12,12 @@ mod status;
 pub(crate) mod style;
 
 use antumbra_host::ContextInfo;
+use antumbra_scene::Motion;
 use egui::{CentralPanel, Frame, Panel, Rect, Ui};
 
 use crate::canvas::Side;
-use crate::model::Model;
 use crate::model::pick::Grip;
+use crate::model::{Model, Parked};
 use crate::model::settings::Layout;
 use crate::report::Control;
 
@@ -83,4 +87,25 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
         Panel::right("panel").default_size(300.0).min_size(240.0).show(root, |ui| panel::show(ui, model, seen));
     }
     CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner
+}
+
+/// Whether something moves: a box to tick. A motion that is taken away comes back when it is ticked again.
+fn moves(
+    ui: &mut Ui,
+    parked: &mut Parked,
+    (kind, name): (&'static str, &str),
+    motion: &mut Option<Motion>,
+    otherwise: impl FnOnce() -> Motion,
+) -> bool {
+    let mut on = motion.is_some();
+    if !ui.checkbox(&mut on, "moves").changed() {
+        return false;
+    }
+    let key = (kind, name.to_owned());
+    if on {
+        *motion = Some(parked.remove(&key).unwrap_or_else(otherwise));
+    } else if let Some(motion) = motion.take() {
+        parked.insert(key, motion);
+    }
+    true
 }

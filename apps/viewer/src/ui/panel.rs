@@ -4,15 +4,18 @@ use antumbra::technique::Allowed;
 use antumbra::{Pattern, Soft, Technique};
 use egui::{CollapsingHeader, ComboBox, DragValue, ScrollArea, Slider, Ui};
 
-use super::Seen;
+use super::{Seen, lights, objects};
 use crate::model::Model;
-use crate::model::settings::{ERROR_SCALES, Layout};
+use crate::model::settings::{Antialiasing, ERROR_SCALES, Layout, ZOOMS};
 use crate::model::way::Way;
 
 /// Everything in it.
 pub(crate) fn show(ui: &mut Ui, model: &mut Model, _seen: &Seen) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         CollapsingHeader::new("Shadows").default_open(true).show(ui, |ui| shadows(ui, model));
+        CollapsingHeader::new("Lights").default_open(true).show(ui, |ui| lights::show(ui, model));
+        CollapsingHeader::new("Objects").default_open(true).show(ui, |ui| objects::show(ui, model));
+        CollapsingHeader::new("Settings").show(ui, |ui| settings(ui, model));
     });
 }
 
@@ -39,6 +42,35 @@ fn shadows(ui: &mut Ui, model: &mut Model) {
             let label = ui.label("brightest");
             ui.add(Slider::new(&mut settings.error_scale, ERROR_SCALES).logarithmic(true)).labelled_by(label.id);
         });
+    }
+}
+
+/// How things are drawn.
+fn settings(ui: &mut Ui, model: &mut Model) {
+    let settings = &mut model.settings;
+    ui.checkbox(&mut settings.marks, "marks");
+    ui.checkbox(&mut settings.vsync, "wait for the screen (vsync)");
+    ui.horizontal(|ui| {
+        let label = ui.label("antialiasing");
+        let name = match settings.antialiasing {
+            Antialiasing::Auto => "auto".to_owned(),
+            Antialiasing::Samples(n) => n.to_string(),
+        };
+        let combo = ComboBox::from_id_salt("antialiasing").selected_text(name).show_ui(ui, |ui| {
+            ui.selectable_value(&mut settings.antialiasing, Antialiasing::Auto, "auto");
+            for n in [1, 2, 4, 8] {
+                ui.selectable_value(&mut settings.antialiasing, Antialiasing::Samples(n), n.to_string());
+            }
+        });
+        combo.response.labelled_by(label.id);
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label("size of the interface");
+        let zoom = DragValue::new(&mut settings.zoom).range(ZOOMS).speed(0.01).update_while_editing(false);
+        ui.add(zoom).labelled_by(label.id);
+    });
+    if ui.button("Reset settings").clicked() {
+        model.reset_settings();
     }
 }
 
