@@ -7,6 +7,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use antumbra::math::plane_shadow::Bounds;
 use antumbra::math::{Light as Place, PlaneFrame};
 use antumbra::{Area, Light};
 use antumbra_scene::{Primitive, Shape};
@@ -162,8 +163,8 @@ impl Source {
     }
 
     /// The edge of what `body` hides any of the light from, on the frame's plane: a touching ray for each of `count`
-    /// directions around.
-    pub(super) fn edge(&self, body: &Body, frame: &PlaneFrame, count: usize) -> Standing {
+    /// directions around. `Apart` too if all of it lies beside the bounds.
+    pub(super) fn edge(&self, body: &Body, frame: &PlaneFrame, bounds: &Bounds, count: usize) -> Standing {
         let (low, high) = self.heights(frame);
         if low.is_nan() || high.is_nan() || (low <= 0.0 && high >= 0.0) {
             return if low < 0.0 && high > 0.0 { Standing::Through } else { Standing::Apart };
@@ -172,13 +173,24 @@ impl Source {
         let up = frame.normal * side;
         let nearest = low.abs().min(high.abs());
         let (top, bottom) = (body.support(up), body.support(-up));
-        let (reach, least) = (frame.height(top) * side, frame.height(bottom) * side);
+        let (most, least) = (frame.height(top) * side, frame.height(bottom) * side);
         let slack = RESTING * (top.length() + bottom.length() + frame.origin.length());
-        if !(reach > slack && least < low.abs().max(high.abs())) {
+        if !(most > slack && least < low.abs().max(high.abs())) {
             return Standing::Apart;
         }
-        if least < -slack || reach >= nearest * (1.0 - AS_HIGH) {
+        if least < -slack || most >= nearest * (1.0 - AS_HIGH) {
             return Standing::Through;
+        }
+        // The ends in the directions of the axes are the edge's own bounds.
+        let reach = |along: DVec3| self.touch(body, frame, up, along).map(|touch| touch.end);
+        let extremes = [reach(-frame.u), reach(-frame.v), reach(frame.u), reach(frame.v)];
+        if let [Some(left), Some(down), Some(right), Some(top)] = extremes
+            && (right.x < bounds.min.x
+                || left.x > bounds.max.x
+                || top.y < bounds.min.y
+                || down.y > bounds.max.y)
+        {
+            return Standing::Apart;
         }
         let touches = (0..count).filter_map(|index| {
             let (sin, cos) = (index as f64 * std::f64::consts::TAU / count as f64).sin_cos();

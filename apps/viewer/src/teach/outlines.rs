@@ -12,7 +12,7 @@ use antumbra::math::{Light as Place, PlaneShadow, Shape, Sphere};
 use glam::{DVec2, DVec3};
 
 use super::body::{Body, Source, Standing, Touch};
-use super::path::{common, left_of};
+use super::path::{Path, common, left_of};
 use super::silhouette::{projected, silhouette};
 use super::{Casting, Drawing, LineKind, Pair, PlanarReceiver, Situation};
 
@@ -63,8 +63,8 @@ impl Situation<'_> {
             receiver.draw_edge(&shadow, LineKind::HardEdge, POINTS, pair, drawing);
             return;
         }
-        let standing =
-            Body::of(pair.primitive).map(|body| Source::of(pair.light).edge(&body, &receiver.frame, POINTS));
+        let standing = Body::of(pair.primitive)
+            .map(|body| Source::of(pair.light).edge(&body, &receiver.frame, &receiver.bounds, POINTS));
         match standing {
             Some(Standing::Apart) => {}
             Some(Standing::Between(touches)) => {
@@ -93,7 +93,7 @@ impl Situation<'_> {
             return;
         };
         let source = Source::of(pair.light);
-        let touches = match source.edge(&body, &receiver.frame, POINTS) {
+        let touches = match source.edge(&body, &receiver.frame, &receiver.bounds, POINTS) {
             Standing::Apart => return,
             Standing::Through => {
                 let text =
@@ -131,7 +131,7 @@ impl Situation<'_> {
         if polygon.len() < 2 {
             return;
         }
-        for part in super::path::Path::closed(polygon).within(&receiver.bounds) {
+        for part in Path::closed(polygon).within(&receiver.bounds) {
             receiver.draw(&part, kind, pair, drawing);
         }
     }
@@ -178,9 +178,10 @@ fn umbra(pair: &Pair<'_>, source: &Source, body: &Body, receiver: &PlanarReceive
                 }
                 _ => {
                     let source = Source::Body(Body::Points(vec![position]));
-                    match source.edge(body, &receiver.frame, POINTS) {
+                    match source.edge(body, &receiver.frame, &receiver.bounds, POINTS) {
                         Standing::Between(touches) => touches.iter().map(|touch| touch.end).collect(),
-                        _ => return None,
+                        Standing::Apart => Vec::new(),
+                        Standing::Through => return None,
                     }
                 }
             };

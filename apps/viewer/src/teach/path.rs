@@ -59,15 +59,32 @@ impl<P: Copy + PartialEq> Path<P> {
 }
 
 impl Path<DVec3> {
-    /// The parts where `value` is above zero. A straight piece is taken to cross zero at most once.
+    /// The parts where `value`, which is concave along straight lines, is above zero.
     pub(super) fn where_positive(&self, value: impl Fn(DVec3) -> f64) -> Vec<Self> {
         self.split(|a, b| match (value(a) > 0.0, value(b) > 0.0) {
             (true, true) => Some((a, b)),
             (true, false) => Some((a, zero(a, b, &value))),
             (false, true) => Some((zero(b, a, &value), b)),
-            (false, false) => None,
+            (false, false) => {
+                let top = highest(a, b, &value);
+                (value(top) > 0.0).then(|| (zero(top, a, &value), zero(top, b, &value)))
+            }
         })
     }
+}
+
+/// Where a concave function is highest between two points, to a millionth of their distance.
+fn highest(a: DVec3, b: DVec3, value: impl Fn(DVec3) -> f64) -> DVec3 {
+    let (mut from, mut to) = (0.0, 1.0);
+    for _ in 0..34 {
+        let third = (to - from) / 3.0;
+        if value(a.lerp(b, from + third)) < value(a.lerp(b, to - third)) {
+            from += third;
+        } else {
+            to -= third;
+        }
+    }
+    a.lerp(b, 0.5 * (from + to))
 }
 
 /// Where `value` falls to zero from `inside` to `outside`, on the inner side of it.
@@ -208,7 +225,7 @@ mod tests {
         let square = Path::closed([(0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (0.5, 1.5)].map(DVec2::from).to_vec());
         let parts = square.within(&UNIT);
         assert_eq!(parts, [Path::open([(0.5, 1.0), (0.5, 0.5), (1.0, 0.5)].map(DVec2::from).to_vec())]);
-        assert_eq!(square.within(&Bounds::around(DVec2::ONE, 1.0)), [square.clone()], "all inside");
+        assert_eq!(square.within(&Bounds::around(DVec2::ONE, 1.0)), std::slice::from_ref(&square));
         assert!(square.within(&Bounds::around(DVec2::splat(-5.0), 1.0)).is_empty(), "all outside");
     }
 
@@ -227,7 +244,12 @@ mod tests {
         assert_eq!(parts.len(), 1, "one half: {parts:?}");
         assert!(!parts[0].closed && parts[0].points.contains(&DVec3::Y), "{parts:?}");
         assert!(parts[0].points.iter().all(|p| p.y >= 0.0), "{parts:?}");
-        assert_eq!(ring.where_positive(|_| 1.0), [ring.clone()]);
+        assert_eq!(ring.where_positive(|_| 1.0), std::slice::from_ref(&ring));
+        let across = Path::open(vec![DVec3::X * -9.0, DVec3::X * 9.0]);
+        let parts = across.where_positive(|p| 2.0 - (p - DVec3::X).length());
+        assert_eq!(parts.len(), 1, "both ends outside: {parts:?}");
+        let error = parts[0].points[0].distance(-DVec3::X) + parts[0].points[1].distance(DVec3::X * 3.0);
+        assert!(error < 1e-12, "{parts:?}");
         assert!(ring.where_positive(|_| f64::NAN).is_empty(), "NaN is nowhere");
         assert!(Path::<DVec3>::closed(vec![]).where_positive(|_| 1.0).is_empty(), "of nothing nothing");
         assert!(Path::<DVec3>::open(vec![]).where_positive(|_| 1.0).is_empty(), "of nothing nothing");

@@ -69,7 +69,8 @@ impl Situation<'_> {
             if is_mesh && pair.is_hard() { silhouette_points(self, &pair, count) } else { Vec::new() };
         for receiver in self.receivers_of(primitive) {
             let directions = if pair.is_hard() { CONTOUR } else { count };
-            let standing = body.as_ref().map(|body| source.edge(body, &receiver.frame, directions));
+            let standing =
+                body.as_ref().map(|body| source.edge(body, &receiver.frame, &receiver.bounds, directions));
             match (standing, pair.is_hard()) {
                 (Some(Standing::Between(touches)), true) => {
                     for p in along_contour(&touches, count) {
