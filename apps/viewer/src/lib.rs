@@ -13,6 +13,7 @@ mod reference;
 mod remembered;
 mod report;
 mod screenshot;
+mod teach;
 mod ui;
 
 pub use error::ViewerError;
