@@ -4,7 +4,6 @@ use std::io::Write;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use antumbra::glam::DVec2;
 use antumbra_scene::Scene;
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
@@ -12,6 +11,8 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, Window, WindowId};
 
+use crate::canvas::lines::Stroke;
+use crate::canvas::map_view::MapPicture;
 use crate::canvas::{Canvas, Side, View};
 use crate::gl_window::GlWindow;
 use crate::model::document::Document;
@@ -19,7 +20,8 @@ use crate::model::settings::{Antialiasing, Settings};
 use crate::model::{Model, Request};
 use crate::reference::Refinement;
 use crate::remembered::Remembered;
-use crate::ui::{self, Seen};
+use crate::ui::teaching::Lesson;
+use crate::ui::{self, MapImage, Seen};
 use crate::{Options, ViewerError, report};
 
 /// What wakes the loop from outside.
@@ -117,6 +119,8 @@ struct Running {
     vsync: bool,
     hidden: bool,
     printed: Option<String>,
+    /// The interface's name of the picture of maps.
+    map_id: Option<egui::TextureId>,
 }
 
 /// How long after a change more samples are worth their time.
@@ -175,6 +179,7 @@ impl App {
             vsync: self.model.settings.vsync,
             hidden: false,
             printed: None,
+            map_id: None,
         })
     }
 
@@ -361,7 +366,7 @@ impl Running {
         } else {
             self.refinement.rest();
         }
-        let strokes = ui::overlay::strokes(model, DVec2::new(f64::from(rect[2]), f64::from(rect[3])));
+        let strokes = self.strokes(model)?;
         let samples = self.samples(model, still);
         let view = View {
             scene: model.scene(),
@@ -375,6 +380,10 @@ impl Running {
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: model.settings.timing,
         };
+        let map = match model.settings.teaching.map && rect[2] > 0 && rect[3] > 0 {
+            true => self.canvas.map(&view, model.light)?,
+            false => None,
+        };
         self.painter.clear(size, [0.0, 0.0, 0.0, 1.0]);
         let start = Instant::now();
         let sides = self.canvas.draw(&view)?;
@@ -382,11 +391,40 @@ impl Running {
         if !still {
             self.last_cost = start.elapsed();
         }
+        self.show_map(map);
         self.seen.frame(model, &sides, still);
         if still && self.seen.wants_error(model) {
             self.seen.error = self.canvas.error(model.scene().image.exposure as f32);
         }
         Ok(sides)
+    }
+
+    /// Lines over the picture: marks, and what teaches.
+    fn strokes(&mut self, model: &Model) -> Result<Vec<Stroke>, ViewerError> {
+        let mut strokes = ui::overlay::strokes(model);
+        if Lesson::is_empty(&model.settings.teaching) {
+            self.seen.lesson.clear();
+        } else if !self.seen.lesson.is_current(model) {
+            let setting = self.canvas.describe(model.scene(), model.clock.time)?;
+            self.seen.lesson.learn(model, setting.moment(), &setting.described);
+            // The legend and the numbers are shown in the frame after.
+            self.window.window.request_redraw();
+        }
+        strokes.extend(self.seen.lesson.strokes.iter().cloned());
+        Ok(strokes)
+    }
+
+    /// Gives the interface the picture of a map.
+    fn show_map(&mut self, map: Option<MapPicture>) {
+        let before = self.seen.map.take();
+        self.seen.map = map.map(|map| {
+            // The texture stays the same for as long as there is a canvas.
+            let id = *self.map_id.get_or_insert_with(|| self.painter.register_native_texture(map.texture));
+            MapImage { id, size: map.size, caption: map.caption }
+        });
+        if before != self.seen.map {
+            self.window.window.request_redraw();
+        }
     }
 
     /// Samples a pixel.
@@ -417,7 +455,10 @@ impl Running {
 
     /// Writes what the picture shows.
     fn screenshot(&mut self, model: &Model, path: &std::path::Path) -> Result<(), String> {
-        let Some((_, _, size)) = &self.last_shown else { return Err("nothing was drawn yet".into()) };
+        let Some(size) = self.last_shown.as_ref().map(|shown| shown.2) else {
+            return Err("nothing was drawn yet".into());
+        };
+        let strokes = self.strokes(model).map_err(|error| error.to_string())?;
         let view = View {
             scene: model.scene(),
             time: model.clock.time,
@@ -425,7 +466,7 @@ impl Running {
             components: &model.components,
             rect: [0, 0, size[0], size[1]],
             samples: self.samples(model, true),
-            strokes: &ui::overlay::strokes(model, DVec2::new(f64::from(size[0]), f64::from(size[1]))),
+            strokes: &strokes,
             scale: self.context.pixels_per_point(),
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: false,
@@ -451,6 +492,7 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
+        // It deletes the picture of maps as well, which it was told of; that the canvas does so again does no harm.
         self.painter.destroy();
     }
 }

@@ -90,8 +90,13 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         .map(|side| {
             json!({
                 "objection": side.objection,
-                "pairs": side.stats.map(|s| s.pairs),
-                "polygons": side.stats.map(|s| s.polygons),
+                "stats": side.stats.map(|s| json!({
+                    "pairs": s.pairs,
+                    "drawn_pairs": s.drawn_pairs,
+                    "polygons": s.polygons,
+                    "tiles": s.tiles,
+                    "touched_tiles": s.touched_tiles,
+                })),
             })
         })
         .collect();
@@ -123,6 +128,12 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         "still": seen.still,
         "traced": seen.traced.map(|(samples, target, stale)| json!([samples, target, stale])),
         "error": seen.error,
+        "lesson": {
+            "lines": seen.lesson.strokes.len(),
+            "facts": seen.lesson.facts.iter().map(|f| json!({ "title": f.title, "lines": f.lines })).collect::<Vec<_>>(),
+            "notes": seen.lesson.notes,
+            "map": seen.map.as_ref().map(|map| json!({ "caption": map.caption, "size": map.size })),
+        },
         "controls": seen.controls,
     })
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod compose;
 pub(crate) mod lines;
+pub(crate) mod map_view;
 mod picture;
 mod program;
 
@@ -13,11 +14,12 @@ use antumbra_host::{Buffers, ColorFormat, ContextInfo, FrameTimer, HostError, Se
 use antumbra_scene::Scene;
 use glow::HasContext;
 
-use crate::model::settings::{Layout, Settings};
+use crate::model::settings::Settings;
 use crate::model::way::Way;
 use crate::reference::Traced;
 use compose::{Compose, Composition};
 use lines::{Lines, Place, Stroke};
+use map_view::{MapPicture, MapView};
 use picture::Picture;
 
 /// What one frame shows.
@@ -99,9 +101,10 @@ pub(crate) struct Canvas {
     info: ContextInfo,
     compose: Compose,
     lines: Lines,
+    map_view: MapView,
     slots: [Slot; 2],
     /// What the stage's depth is of.
-    depth: Option<(Arc<Scene>, f64, [i32; 2], u32)>,
+    depth: Option<(Arc<Scene>, f64, [i32; 2])>,
 }
 
 /// How dark a picture is whose way cannot show the scene.
@@ -118,7 +121,9 @@ impl Canvas {
         let timer = FrameTimer::new(gl, &info)?;
         // SAFETY: the context is current on this thread.
         let (compose, lines) = unsafe { (Compose::new(gl)?, Lines::new(gl)?) };
-        Ok(Self { gl: gl.clone(), stage, timer, info, compose, lines, slots: Default::default(), depth: None })
+        let gl = gl.clone();
+        let (slots, map_view) = Default::default();
+        Ok(Self { gl, stage, timer, info, compose, lines, map_view, slots, depth: None })
     }
 
     /// What the driver says of itself.
@@ -249,7 +254,7 @@ impl Canvas {
             shadows(stage)?;
         }
         side.stats = technique.map(|_| stage.shadows().stats());
-        self.depth = Some((view.scene.clone(), view.time, size, view.samples));
+        self.depth = Some((view.scene.clone(), view.time, size));
         if let Some(color) = self.stage.color() {
             // SAFETY: the context is current; the stage's picture has this size and one sample.
             unsafe {
@@ -266,20 +271,54 @@ impl Canvas {
         Ok(setting)
     }
 
+    /// A scene at a time in antumbra's terms.
+    ///
+    /// # Errors
+    /// Those of a mesh that is none.
+    pub(crate) fn describe(&mut self, scene: &Scene, time: f64) -> Result<Setting, HostError> {
+        self.stage.setting(scene, time, 1.0)
+    }
+
+    /// The shadow map of a light as the first way has it; `None` if that has no maps, or the light none.
+    ///
+    /// # Errors
+    /// Those of the driver.
+    pub(crate) fn map(&mut self, view: &View<'_>, light: usize) -> Result<Option<MapPicture>, HostError> {
+        let setting = self.setting(view)?;
+        let Way::Technique(technique, soft) = view.settings.ways[0] else { return Ok(None) };
+        let is_there = technique.has_maps() && light < setting.described.lights.len();
+        if !is_there || setting.objection(&technique, soft).is_some() {
+            return Ok(None);
+        }
+        self.ensure_depth(view, &setting)?;
+        self.stage.set_technique(technique)?;
+        self.stage.set_soft(soft);
+        let Some(map) = self.stage.depth_map(&setting, light)? else { return Ok(None) };
+        // SAFETY: the context is current, and the map was just drawn.
+        unsafe { self.map_view.draw(&self.gl, &map).map(Some) }
+    }
+
+    /// Draws the scene if its depth is not there.
+    fn ensure_depth(&mut self, view: &View<'_>, setting: &Setting) -> Result<(), HostError> {
+        let size = [view.rect[2], view.rect[3]];
+        let current = self.depth.as_ref().is_some_and(|(scene, time, of)| {
+            Arc::ptr_eq(scene, view.scene) && *time == view.time && *of == size
+        });
+        if !current {
+            let [w, h] = size.map(|side| side as u32);
+            self.stage.draw(setting, w, h, 1, ColorFormat::Rgba16F, Buffers::All)?;
+            self.depth = Some((view.scene.clone(), view.time, size));
+        }
+        Ok(())
+    }
+
     fn draw_strokes(&mut self, view: &View<'_>) -> Result<(), HostError> {
         if view.strokes.is_empty() {
             return Ok(());
         }
         let setting = self.setting(view)?;
         let size = [view.rect[2], view.rect[3]];
-        let current = self.depth.as_ref().is_some_and(|(scene, time, of, _)| {
-            Arc::ptr_eq(scene, view.scene) && *time == view.time && *of == size
-        });
-        if !current {
-            let [w, h] = size.map(|side| side as u32);
-            self.stage.draw(&setting, w, h, 1, ColorFormat::Rgba16F, Buffers::Color)?;
-            self.depth = Some((view.scene.clone(), view.time, size, 1));
-        }
+        self.ensure_depth(view, &setting)?;
         let Some(surface) = self.stage.surface() else { return Ok(()) };
         let place = Place { setting: &setting, surface: &surface, texels: size, rect: view.rect, scale: view.scale };
         let [x, y, w, h] = view.rect;
@@ -337,11 +376,6 @@ impl Canvas {
         let rgb = rows.flat_map(|row| row.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]])).collect();
         Ok((w as u32, h as u32, rgb))
     }
-
-    /// Whether the error map or the split compare two finished things of one size.
-    pub(crate) fn layout_is_comparison(settings: &Settings) -> bool {
-        settings.layout != Layout::Single && settings.ways[0] != settings.ways[1]
-    }
 }
 
 fn srgb(linear: f32) -> f32 {
@@ -358,6 +392,7 @@ impl Drop for Canvas {
             }
             self.compose.delete(&self.gl);
             self.lines.delete(&self.gl);
+            self.map_view.delete(&self.gl);
         }
     }
 }

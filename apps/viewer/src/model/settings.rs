@@ -154,7 +154,7 @@ impl Settings {
     /// Whether the first way draws lights with an area as a collection of components.
     pub(crate) fn components(&self) -> Option<u32> {
         match self.ways[0] {
-            Way::Technique(antumbra::Technique::Composite(options), Soft::Native) => Some(options.components),
+            Way::Technique(technique, Soft::Native) => technique.components(),
             _ => None,
         }
     }

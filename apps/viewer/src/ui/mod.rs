@@ -10,6 +10,7 @@ mod panel;
 mod picture;
 mod status;
 pub(crate) mod style;
+pub(crate) mod teaching;
 
 use antumbra_host::ContextInfo;
 use antumbra_scene::Motion;
@@ -33,6 +34,10 @@ pub(crate) struct Seen {
     pub(crate) error: Option<[f32; 2]>,
     /// The named controls of the last frame, where somebody asks for them.
     pub(crate) controls: Vec<Control>,
+    /// Lines and numbers that teach.
+    pub(crate) lesson: teaching::Lesson,
+    /// The map of the chosen light.
+    pub(crate) map: Option<MapImage>,
     /// The driver's name.
     pub(crate) renderer: String,
     /// Which clock frame times are of.
@@ -52,6 +57,8 @@ impl Seen {
             traced: None,
             error: None,
             controls: Vec::new(),
+            lesson: Default::default(),
+            map: None,
             renderer: info.renderer.clone(),
             clock,
             grip: None,
@@ -71,6 +78,17 @@ impl Seen {
     pub(crate) fn wants_error(&self, model: &Model) -> bool {
         model.settings.layout == Layout::Difference && self.error.is_none()
     }
+}
+
+/// A picture of a map that the interface can show.
+#[derive(PartialEq)]
+pub(crate) struct MapImage {
+    /// As the interface knows it.
+    pub(crate) id: egui::TextureId,
+    /// The part of the texture that it takes, pixels.
+    pub(crate) size: [i32; 2],
+    /// What it is.
+    pub(crate) caption: String,
 }
 
 /// Shows everything and does what the user asks; where the picture is, points.

@@ -54,7 +54,7 @@ pub(crate) fn marks(painter: &Painter, rect: Rect, lens: &Lens, model: &Model) {
 }
 
 /// Lines in the world: the outlines of lights, and a box round what is chosen.
-pub(crate) fn strokes(model: &Model, _size: DVec2) -> Vec<lines::Stroke> {
+pub(crate) fn strokes(model: &Model) -> Vec<lines::Stroke> {
     let mut strokes = Vec::new();
     if !model.settings.marks {
         return strokes;

@@ -4,17 +4,18 @@ use antumbra::technique::Allowed;
 use antumbra::{Pattern, Soft, Technique};
 use egui::{CollapsingHeader, ComboBox, DragValue, ScrollArea, Slider, Ui};
 
-use super::{Seen, lights, objects};
+use super::{Seen, lights, objects, teaching};
 use crate::model::Model;
 use crate::model::settings::{Antialiasing, ERROR_SCALES, Layout, ZOOMS};
 use crate::model::way::Way;
 
 /// Everything in it.
-pub(crate) fn show(ui: &mut Ui, model: &mut Model, _seen: &Seen) {
+pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &Seen) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         CollapsingHeader::new("Shadows").default_open(true).show(ui, |ui| shadows(ui, model));
         CollapsingHeader::new("Lights").default_open(true).show(ui, |ui| lights::show(ui, model));
         CollapsingHeader::new("Objects").default_open(true).show(ui, |ui| objects::show(ui, model));
+        CollapsingHeader::new("Teaching").default_open(true).show(ui, |ui| teaching::section(ui, model, seen));
         CollapsingHeader::new("Settings").show(ui, |ui| settings(ui, model));
     });
 }

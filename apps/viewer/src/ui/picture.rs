@@ -4,7 +4,7 @@ use antumbra::glam::DVec2;
 use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
 use super::style::ACCENT;
-use super::{Seen, overlay};
+use super::{Seen, overlay, teaching};
 use crate::model::camera::{self, Lens};
 use crate::model::pick::{self, Grip};
 use crate::model::settings::{DIVIDERS, Layout};
@@ -30,6 +30,8 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
         overlay::marks(&painter, rect, &lens, model);
     }
     names(&painter, rect, model, seen);
+    teaching::legend(&painter, rect, &seen.lesson);
+    teaching::map(ui, rect, model, seen);
     rect
 }
 
