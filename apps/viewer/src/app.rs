@@ -384,7 +384,7 @@ impl Running {
             true => self.canvas.map(&view, model.light)?,
             false => None,
         };
-        self.painter.clear(size, [0.0, 0.0, 0.0, 1.0]);
+        self.canvas.clear(size);
         let start = Instant::now();
         let sides = self.canvas.draw(&view)?;
         self.seen.traced = view.traced.map(|t| (t.samples, t.target, t.stale));

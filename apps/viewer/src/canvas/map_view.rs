@@ -11,7 +11,7 @@ use super::program::Program;
 const FACE: i32 = 192;
 
 /// Where the faces of a cube are in the unfolded picture, columns and rows from the bottom left: +X, -X, +Y, -Y, +Z, -Z.
-const CROSS: [[i32; 2]; 6] = [[2, 1], [0, 1], [1, 2], [1, 0], [3, 1], [1, 1]];
+pub(crate) const CROSS: [[i32; 2]; 6] = [[2, 1], [0, 1], [1, 2], [1, 0], [3, 1], [1, 1]];
 
 /// Size of the texture: an unfolded cube. One face alone takes the left part of it. It is never made anew, because the
 /// interface goes by it.

@@ -141,6 +141,13 @@ impl Canvas {
         self.timer.name()
     }
 
+    /// Makes the whole window black.
+    pub(crate) fn clear(&self, size: [u32; 2]) {
+        // SAFETY: the context is current.
+        unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, None) };
+        egui_glow::painter::clear(&self.gl, size, [0.0, 0.0, 0.0, 1.0]);
+    }
+
     /// Draws a frame into the window's framebuffer; what became of the first side, and of the second if there is one.
     ///
     /// # Errors

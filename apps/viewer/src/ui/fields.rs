@@ -12,7 +12,8 @@ const SPEED: f64 = 0.02;
 /// A row: a name, then controls that go by it.
 pub(crate) fn row<R>(ui: &mut Ui, name: &str, controls: impl FnOnce(&mut Ui, egui::Id) -> R) -> R {
     ui.horizontal(|ui| {
-        let label = ui.add_sized([72.0, 18.0], egui::Label::new(name).halign(egui::Align::LEFT));
+        let label = ui.label(name);
+        ui.add_space((72.0 - label.rect.width()).max(0.0));
         controls(ui, label.id)
     })
     .inner

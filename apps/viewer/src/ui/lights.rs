@@ -5,6 +5,7 @@ use antumbra_scene::{Light, LightKind, Scene};
 use egui::{Color32, ComboBox, RichText, Ui};
 
 use super::fields;
+use super::style::ACCENT;
 use crate::model::edit;
 use crate::model::pick::Item;
 use crate::model::{Model, command::Command};
@@ -15,19 +16,19 @@ const KINDS: [&str; 6] = ["point", "sphere", "disc", "rectangle", "spot", "direc
 /// The list, and the chosen light with all it has.
 pub(crate) fn show(ui: &mut Ui, model: &mut Model) {
     let scene = model.scene().clone();
-    for (i, light) in scene.lights.iter().enumerate() {
-        ui.horizontal(|ui| {
-            let [r, g, b] = (light.color / light.color.max_element().max(1e-9)).to_array();
-            let swatch = egui::Rgba::from_rgb(r as f32, g as f32, b as f32);
-            ui.label(RichText::new("⏺").color(Color32::from(swatch)));
-            let chosen = model.chosen == Some(Item::Light(i));
-            let text = format!("{}  {}", i + 1, light.name);
-            if ui.selectable_label(chosen, text).on_hover_text(kind_name(&light.kind)).clicked() {
-                model.choose(Some(Item::Light(i)));
-            }
-            ui.label(RichText::new(kind_name(&light.kind)).weak());
-        });
-    }
+    super::list(ui, "lights", scene.lights.len(), |ui, i| {
+        let light = &scene.lights[i];
+        let [r, g, b] = (light.color / light.color.max_element().max(1e-9)).to_array();
+        let swatch = egui::Rgba::from_rgb(r as f32, g as f32, b as f32);
+        let (spot, _) = ui.allocate_exact_size(egui::vec2(12.0, 18.0), egui::Sense::hover());
+        let ring = if i == model.light { ACCENT } else { Color32::BLACK };
+        ui.painter().circle(spot.center(), 5.0, Color32::from(swatch), egui::Stroke::new(1.5, ring));
+        let chosen = model.chosen == Some(Item::Light(i));
+        if ui.selectable_label(chosen, format!("{}  {}", i + 1, light.name)).clicked() {
+            model.choose(Some(Item::Light(i)));
+        }
+        ui.label(RichText::new(kind_name(&light.kind)).weak());
+    });
     ui.horizontal(|ui| {
         ui.menu_button("Add light", |ui| {
             for kind in KINDS {

@@ -17,15 +17,14 @@ const SHAPES: [&str; 11] = [
 /// The list, and the chosen object with all it has.
 pub(crate) fn show(ui: &mut Ui, model: &mut Model) {
     let scene = model.scene().clone();
-    for (i, object) in scene.objects.iter().enumerate() {
-        ui.horizontal(|ui| {
-            let chosen = model.chosen == Some(Item::Object(i));
-            if ui.selectable_label(chosen, &object.name).on_hover_text(kind_name(object)).clicked() {
-                model.choose(Some(Item::Object(i)));
-            }
-            ui.label(RichText::new(kind_name(object)).weak());
-        });
-    }
+    super::list(ui, "objects", scene.objects.len(), |ui, i| {
+        let object = &scene.objects[i];
+        let chosen = model.chosen == Some(Item::Object(i));
+        if ui.selectable_label(chosen, &object.name).clicked() {
+            model.choose(Some(Item::Object(i)));
+        }
+        ui.label(RichText::new(kind_name(object)).weak());
+    });
     ui.horizontal(|ui| {
         ui.menu_button("Add object", |ui| {
             for kind in SHAPES {

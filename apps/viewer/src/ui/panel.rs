@@ -12,6 +12,8 @@ use crate::model::way::Way;
 /// Everything in it.
 pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &Seen) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // What is too wide is wrapped: the panel is as wide as the user made it.
+        ui.set_max_width(ui.available_width() - 4.0);
         CollapsingHeader::new("Shadows").default_open(true).show(ui, |ui| shadows(ui, model));
         CollapsingHeader::new("Lights").default_open(true).show(ui, |ui| lights::show(ui, model));
         CollapsingHeader::new("Objects").default_open(true).show(ui, |ui| objects::show(ui, model));

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use antumbra_host::Described;
-use antumbra_scene::{Moment, Scene};
+use antumbra_scene::{Moment, Scene, Shape};
 use egui::{Align2, Color32, FontId, Grid, Painter, Rect, RichText, Ui, pos2, vec2};
 
 use super::Seen;
 use crate::canvas::lines::Stroke;
-use crate::canvas::map_view::TEXTURE;
+use crate::canvas::map_view::{CROSS, TEXTURE};
 use crate::model::Model;
 use crate::model::pick::Item;
 use crate::model::settings::Teaching;
@@ -71,6 +71,10 @@ impl Lesson {
         self.notes.clear();
         let situation = Situation::new(model.scene(), moment, described);
         let wanted = |&(light, primitive): &(usize, usize)| {
+            // An infinite plane hides half of the world, which nobody needs lines for.
+            if moment.primitives.get(primitive).is_none_or(|p| p.shape == Shape::Plane) {
+                return false;
+            }
             let of_light = !teaching.chosen_light || light == model.light;
             let of_object = match model.chosen {
                 Some(Item::Object(object)) => moment.primitives.get(primitive).is_some_and(|p| p.object == object),
@@ -206,10 +210,11 @@ pub(crate) fn section(ui: &mut Ui, model: &mut Model, seen: &Seen) {
     for (i, fact) in seen.lesson.facts.iter().enumerate() {
         ui.separator();
         ui.label(RichText::new(&fact.title).strong());
-        Grid::new(("fact", i)).num_columns(2).spacing([8.0, 2.0]).show(ui, |ui| {
+        let width = (ui.available_width() - 96.0).max(80.0);
+        Grid::new(("fact", i)).num_columns(2).spacing([8.0, 2.0]).max_col_width(width).show(ui, |ui| {
             for (label, value) in &fact.lines {
-                ui.label(RichText::new(label).weak());
-                ui.label(RichText::new(value).monospace());
+                ui.label(RichText::new(label).weak().small());
+                ui.add(egui::Label::new(RichText::new(value).small()).wrap());
                 ui.end_row();
             }
         });
@@ -236,11 +241,23 @@ pub(crate) fn map(ui: &Ui, rect: Rect, model: &Model, seen: &Seen) {
                 // OpenGL's rows go up.
                 let [w, h] = [0, 1].map(|i| map.size[i] as f32 / TEXTURE[i] as f32);
                 let image = egui::Image::new((map.id, size)).uv(Rect::from_min_max(pos2(0.0, h), pos2(w, 0.0)));
-                ui.add(image);
+                let place = ui.add(image).rect;
+                if map.size == TEXTURE {
+                    face_names(ui.painter(), place);
+                }
                 ui.label(RichText::new(&map.caption).weak().small());
             }
             None => {
                 ui.label(format!("There is no map of {name}: only the technique map has one, and of lights that are on"));
             }
         });
+}
+
+/// Which face of an unfolded cube is which.
+fn face_names(painter: &Painter, place: Rect) {
+    let face = vec2(place.width() / 4.0, place.height() / 3.0);
+    for (name, [column, row]) in ["+X", "-X", "+Y", "-Y", "+Z", "-Z"].into_iter().zip(CROSS) {
+        let at = place.left_bottom() + vec2(face.x * column as f32 + 4.0, -face.y * row as f32 - 3.0);
+        painter.text(at, Align2::LEFT_BOTTOM, name, FontId::proportional(10.0), Color32::from_gray(150));
+    }
 }
