@@ -349,7 +349,13 @@ impl Running {
     }
 
     /// The scene in the window's framebuffer.
-    fn draw(&mut self, model: &Model, rect: [i32; 4], scale: f32, size: [u32; 2]) -> Result<[Side; 2], ViewerError> {
+    fn draw(
+        &mut self,
+        model: &Model,
+        rect: [i32; 4],
+        scale: f32,
+        size: [u32; 2],
+    ) -> Result<[Side; 2], ViewerError> {
         let now = self.last_frame;
         let shown = (model.scene().clone(), model.clock.time, [rect[2], rect[3]]);
         let same = self.last_shown.as_ref().is_some_and(|(scene, time, size)| {
@@ -436,7 +442,13 @@ impl Running {
             Antialiasing::Auto if self.canvas.info().software => {
                 if still && self.last_cost < Duration::from_millis(150) { 4.min(most) } else { 1 }
             }
-            Antialiasing::Auto => if still { 8.min(most) } else { 4.min(most) },
+            Antialiasing::Auto => {
+                if still {
+                    8.min(most)
+                } else {
+                    4.min(most)
+                }
+            }
         }
     }
 
@@ -476,7 +488,13 @@ impl Running {
     }
 
     /// Prints the state if it is not what was printed last.
-    fn print(&mut self, model: &Model, rect: [i32; 4], size: [u32; 2], scale: f32) -> Result<(), ViewerError> {
+    fn print(
+        &mut self,
+        model: &Model,
+        rect: [i32; 4],
+        size: [u32; 2],
+        scale: f32,
+    ) -> Result<(), ViewerError> {
         let top = size[1] as i32 - rect[1] - rect[3];
         let state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
         let line = state.to_string();
@@ -500,7 +518,9 @@ impl Drop for Running {
 /// A rectangle of the interface in pixels from the bottom left of a window of this size.
 fn pixels(rect: egui::Rect, scale: f32, size: [u32; 2]) -> [i32; 4] {
     let [w, h] = size.map(|side| side as f32);
-    let (left, right) = ((rect.left() * scale).round().clamp(0.0, w), (rect.right() * scale).round().clamp(0.0, w));
-    let (top, bottom) = ((rect.top() * scale).round().clamp(0.0, h), (rect.bottom() * scale).round().clamp(0.0, h));
+    let (left, right) =
+        ((rect.left() * scale).round().clamp(0.0, w), (rect.right() * scale).round().clamp(0.0, w));
+    let (top, bottom) =
+        ((rect.top() * scale).round().clamp(0.0, h), (rect.bottom() * scale).round().clamp(0.0, h));
     [left, h - bottom, right - left, bottom - top].map(|x| x.max(0.0) as i32)
 }

@@ -70,7 +70,8 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         .iter()
         .enumerate()
         .map(|(i, object)| {
-            let here = moment.primitives.iter().find(|p| p.object == i).map(|p| p.pose.translation.to_array());
+            let here =
+                moment.primitives.iter().find(|p| p.object == i).map(|p| p.pose.translation.to_array());
             json!({ "name": object.name, "position": here, "parts": object.parts.len() })
         })
         .collect();

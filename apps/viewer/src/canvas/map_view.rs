@@ -42,7 +42,11 @@ impl MapView {
     ///
     /// # Safety
     /// The context is current, and the map is still there.
-    pub(crate) unsafe fn draw(&mut self, gl: &glow::Context, map: &DepthMap) -> Result<MapPicture, HostError> {
+    pub(crate) unsafe fn draw(
+        &mut self,
+        gl: &glow::Context,
+        map: &DepthMap,
+    ) -> Result<MapPicture, HostError> {
         let size = if map.cube { TEXTURE } else { [TEXTURE[1]; 2] };
         // SAFETY: the caller's.
         unsafe {
@@ -82,7 +86,10 @@ impl MapView {
             gl.bind_texture(glow::TEXTURE_2D, None);
             let faces = map.faces.iter().flatten().count();
             let faces = if map.cube { format!("{faces} of 6 faces of ") } else { String::new() };
-            let caption = format!("{faces}{0} × {0} texels, {1:.2} m to {2:.2} m", map.side, map.range[0], map.range[1]);
+            let caption = format!(
+                "{faces}{0} × {0} texels, {1:.2} m to {2:.2} m",
+                map.side, map.range[0], map.range[1]
+            );
             Ok(MapPicture { texture: picture.texture, size, caption })
         }
     }

@@ -162,7 +162,8 @@ impl Canvas {
         // The same way twice is drawn once.
         let twice = ways.len() == 2 && ways[0] == ways[1];
         for (i, side) in [&mut first, &mut second].into_iter().take(ways.len()).enumerate() {
-            *side = if i == 1 && twice { self.slots[0].side.clone() } else { self.draw_side(i, ways[i], view)? };
+            *side =
+                if i == 1 && twice { self.slots[0].side.clone() } else { self.draw_side(i, ways[i], view)? };
         }
         let both = if twice || ways.len() == 1 { [0, 0] } else { [0, 1] };
         let textures = both.map(|i| self.slots[i].picture.as_ref().map(|p| p.texture));
@@ -224,13 +225,19 @@ impl Canvas {
     }
 
     /// Draws the host's picture and the shadows of one way into a side's picture.
-    fn draw_way(&mut self, index: usize, way: Way, view: &View<'_>, size: [i32; 2]) -> Result<Side, HostError> {
+    fn draw_way(
+        &mut self,
+        index: usize,
+        way: Way,
+        view: &View<'_>,
+        size: [i32; 2],
+    ) -> Result<Side, HostError> {
         let setting = self.setting(view)?;
         let mut side = Side { fresh: true, ..Side::default() };
         let technique = match way {
             Way::Technique(technique, soft) => match setting.objection(&technique, soft) {
                 Some(objection) => {
-                    side.objection = Some(objection.to_string());
+                    side.objection = Some(objection.in_words());
                     None
                 }
                 None => Some((technique, soft)),
@@ -247,7 +254,8 @@ impl Canvas {
         }
         let (stage, timer) = (&mut self.stage, &mut self.timer);
         let [w, h] = size.map(|side| side as u32);
-        let plain = |stage: &mut Stage| stage.draw(&setting, w, h, view.samples, ColorFormat::Rgba16F, Buffers::All);
+        let plain =
+            |stage: &mut Stage| stage.draw(&setting, w, h, view.samples, ColorFormat::Rgba16F, Buffers::All);
         let shadows = |stage: &mut Stage| match technique {
             Some(_) => stage.add_shadows(&setting),
             None => Ok(()),
@@ -265,7 +273,8 @@ impl Canvas {
         if let Some(color) = self.stage.color() {
             // SAFETY: the context is current; the stage's picture has this size and one sample.
             unsafe {
-                Picture::ensure(&mut self.slots[index].picture, &self.gl, size)?.copy_from(&self.gl, color.framebuffer);
+                Picture::ensure(&mut self.slots[index].picture, &self.gl, size)?
+                    .copy_from(&self.gl, color.framebuffer);
             }
         }
         Ok(side)
@@ -327,7 +336,8 @@ impl Canvas {
         let size = [view.rect[2], view.rect[3]];
         self.ensure_depth(view, &setting)?;
         let Some(surface) = self.stage.surface() else { return Ok(()) };
-        let place = Place { setting: &setting, surface: &surface, texels: size, rect: view.rect, scale: view.scale };
+        let place =
+            Place { setting: &setting, surface: &surface, texels: size, rect: view.rect, scale: view.scale };
         let [x, y, w, h] = view.rect;
         // SAFETY: the context is current; the surface is the stage's own.
         unsafe {

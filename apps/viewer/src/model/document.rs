@@ -53,7 +53,16 @@ impl Document {
             Source::File(path) => Some(path.clone()),
             Source::Gallery(_) => None,
         };
-        Self { saved, scene, source, loaded_from, modified: false, undo: Vec::new(), redo: Vec::new(), open: None }
+        Self {
+            saved,
+            scene,
+            source,
+            loaded_from,
+            modified: false,
+            undo: Vec::new(),
+            redo: Vec::new(),
+            open: None,
+        }
     }
 
     /// Reads a file.

@@ -299,8 +299,10 @@ impl Model {
 
     /// Where the components of the chosen light are, but for the central one; empty unless it is a collection.
     fn side_components(&self) -> Vec<DVec3> {
-        let own: Vec<DVec3> = self.components.iter().filter(|c| c.light == self.light).map(|c| c.offset).collect();
-        let (Some(count), Some(light)) = (self.settings.components(), self.scene().lights.get(self.light)) else {
+        let own: Vec<DVec3> =
+            self.components.iter().filter(|c| c.light == self.light).map(|c| c.offset).collect();
+        let (Some(count), Some(light)) = (self.settings.components(), self.scene().lights.get(self.light))
+        else {
             return Vec::new();
         };
         if !own.is_empty() && antumbra_host::light(light).area != antumbra::Area::None {
@@ -345,8 +347,12 @@ impl Model {
     /// Moves what is held by the pointer.
     pub(crate) fn move_item(&mut self, item: Item, by: DVec3) {
         match item {
-            Item::Light(i) => self.document.edit(("move light", i), |s| edit::move_light(&mut s.lights[i], by)),
-            Item::Object(i) => self.document.edit(("move object", i), |s| edit::move_object(&mut s.objects[i], by)),
+            Item::Light(i) => {
+                self.document.edit(("move light", i), |s| edit::move_light(&mut s.lights[i], by))
+            }
+            Item::Object(i) => {
+                self.document.edit(("move object", i), |s| edit::move_object(&mut s.objects[i], by))
+            }
         }
     }
 
@@ -370,13 +376,17 @@ impl Model {
         let scene = self.scene();
         let step = DVec3::new(0.3, 0.0, 0.3);
         match self.chosen {
-            Some(Item::Light(i)) if i < scene.lights.len() && scene.lights.len() < antumbra_scene::limits::MAX_LIGHTS => {
+            Some(Item::Light(i))
+                if i < scene.lights.len() && scene.lights.len() < antumbra_scene::limits::MAX_LIGHTS =>
+            {
                 let mut light = scene.lights[i].clone();
                 light.name = scene.unique_light_name(&light.name);
                 edit::move_light(&mut light, step);
                 self.choose_after(Item::Light(scene.lights.len()), |s| s.lights.push(light));
             }
-            Some(Item::Object(i)) if i < scene.objects.len() && scene.objects.len() < antumbra_scene::limits::MAX_OBJECTS => {
+            Some(Item::Object(i))
+                if i < scene.objects.len() && scene.objects.len() < antumbra_scene::limits::MAX_OBJECTS =>
+            {
                 let mut object = scene.objects[i].clone();
                 object.name = scene.unique_object_name(&object.name);
                 edit::move_object(&mut object, step);
@@ -441,7 +451,8 @@ impl Model {
     pub(crate) fn is_moving(&self) -> bool {
         let moves = || {
             let scene = self.scene();
-            scene.lights.iter().any(|l| l.motion.is_some()) || scene.objects.iter().any(|o| o.motion.is_some())
+            scene.lights.iter().any(|l| l.motion.is_some())
+                || scene.objects.iter().any(|o| o.motion.is_some())
         };
         self.clock.playing && self.clock.speed != 0.0 && moves()
     }

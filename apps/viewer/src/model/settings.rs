@@ -174,7 +174,8 @@ mod tests {
         };
         let text = serde_json::to_string(&settings).expect("it can be written");
         assert_eq!(serde_json::from_str::<Settings>(&text).expect("and read"), settings, "{text}");
-        let old: Settings = serde_json::from_str(r#"{"divider": 7, "unknown": 1}"#).expect("of another version");
+        let old: Settings =
+            serde_json::from_str(r#"{"divider": 7, "unknown": 1}"#).expect("of another version");
         assert_eq!(old.sane().divider, *DIVIDERS.end(), "put right");
     }
 }

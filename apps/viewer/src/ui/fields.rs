@@ -144,7 +144,12 @@ pub(crate) fn tick(ui: &mut Ui, name: &str, value: &mut bool) -> bool {
 }
 
 /// A name. It changes when the field is left or Enter is pressed, to what `allowed` makes of the text.
-pub(crate) fn name(ui: &mut Ui, label: &str, value: &mut String, allowed: impl FnOnce(&str) -> Option<String>) -> bool {
+pub(crate) fn name(
+    ui: &mut Ui,
+    label: &str,
+    value: &mut String,
+    allowed: impl FnOnce(&str) -> Option<String>,
+) -> bool {
     row(ui, label, |ui, label| {
         let id = ui.scope_id().with("text");
         let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| value.clone());

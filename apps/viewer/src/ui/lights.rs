@@ -27,7 +27,7 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model) {
         if ui.selectable_label(chosen, format!("{}  {}", i + 1, light.name)).clicked() {
             model.choose(Some(Item::Light(i)));
         }
-        ui.label(RichText::new(kind_name(&light.kind)).weak());
+        ui.label(RichText::new(light.kind.type_name()).weak());
     });
     ui.horizontal(|ui| {
         ui.menu_button("Add light", |ui| {
@@ -71,7 +71,7 @@ fn editor(ui: &mut Ui, model: &mut Model, i: usize, mut light: Light) {
         others.lights.remove(i);
         Some(others.unique_light_name(text))
     });
-    let name = kind_name(&light.kind);
+    let name = light.kind.type_name();
     fields::row(ui, "type", |ui, label| {
         let combo = ComboBox::from_id_salt("type").selected_text(name).show_ui(ui, |ui| {
             for kind in KINDS {
@@ -85,7 +85,8 @@ fn editor(ui: &mut Ui, model: &mut Model, i: usize, mut light: Light) {
     });
     changed |= fields::color(ui, "color", &mut light.color);
     let directional = matches!(light.kind, LightKind::Directional { .. });
-    changed |= fields::brightness(ui, "intensity", &mut light.intensity, if directional { " lx" } else { " cd" });
+    changed |=
+        fields::brightness(ui, "intensity", &mut light.intensity, if directional { " lx" } else { " cd" });
     if !directional {
         changed |= fields::point(ui, "position", &mut light.position);
     }
@@ -121,7 +122,8 @@ fn shape(ui: &mut Ui, kind: &mut LightKind) -> bool {
             fields::direction(ui, "direction", direction) | fields::length(ui, "radius", radius)
         }
         LightKind::Rectangle { direction, right, width, height } => {
-            let turned = fields::direction(ui, "direction", direction) | fields::direction(ui, "right", right);
+            let turned =
+                fields::direction(ui, "direction", direction) | fields::direction(ui, "right", right);
             if turned {
                 *right = across(*direction, *right);
             }
@@ -135,17 +137,6 @@ fn across(direction: DVec3, right: DVec3) -> DVec3 {
     let flat = right - direction * direction.dot(right);
     let right = flat.try_normalize().filter(|_| flat.length() > 1e-6);
     right.unwrap_or_else(|| direction.any_orthonormal_vector())
-}
-
-fn kind_name(kind: &LightKind) -> &'static str {
-    match kind {
-        LightKind::Point => "point",
-        LightKind::Directional { .. } => "directional",
-        LightKind::Spot { .. } => "spot",
-        LightKind::Sphere { .. } => "sphere",
-        LightKind::Disc { .. } => "disc",
-        LightKind::Rectangle { .. } => "rectangle",
-    }
 }
 
 /// A kind by its name, shining along a direction, with the size of a radius.
@@ -201,7 +192,7 @@ mod tests {
                 let mut scene = scene.clone();
                 convert(&mut scene.lights[0], from, DVec3::ZERO);
                 convert(&mut scene.lights[0], to, DVec3::ZERO);
-                assert_eq!(kind_name(&scene.lights[0].kind), to, "it is what was asked for");
+                assert_eq!(scene.lights[0].kind.type_name(), to, "it is what was asked for");
                 scene.validate().unwrap_or_else(|error| panic!("{from} to {to}: {error}"));
             }
         }

@@ -18,8 +18,8 @@ use egui::{CentralPanel, Frame, Panel, Rect, Ui};
 
 use crate::canvas::Side;
 use crate::model::pick::Grip;
-use crate::model::{Model, Parked};
 use crate::model::settings::Layout;
+use crate::model::{Model, Parked};
 use crate::report::Control;
 
 /// What the interface knows besides the model: what was seen in the frames before, and what the pointer holds.
@@ -102,7 +102,10 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     Panel::top("menu").show(root, |ui| menu::bar(ui, model));
     Panel::bottom("status").show(root, |ui| status::line(ui, model, seen));
     if model.settings.panel {
-        Panel::right("panel").default_size(300.0).size_range(260.0..=480.0).show(root, |ui| panel::show(ui, model, seen));
+        Panel::right("panel")
+            .default_size(300.0)
+            .size_range(260.0..=480.0)
+            .show(root, |ui| panel::show(ui, model, seen));
     }
     CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner
 }
@@ -131,7 +134,10 @@ fn moves(
 /// A list of any length, of which the rows in sight are made.
 fn list(ui: &mut Ui, name: &str, count: usize, mut row: impl FnMut(&mut Ui, usize)) {
     let height = ui.spacing().interact_size.y;
-    let area = egui::ScrollArea::vertical().id_salt(name).max_height(10.0 * (height + 4.0)).auto_shrink([false, true]);
+    let area = egui::ScrollArea::vertical()
+        .id_salt(name)
+        .max_height(10.0 * (height + 4.0))
+        .auto_shrink([false, true]);
     area.show_rows(ui, height, count, |ui, rows| {
         for i in rows {
             ui.horizontal(|ui| row(ui, i));

@@ -11,7 +11,17 @@ use crate::model::{Model, command::Command};
 
 /// The shapes that can be added; meshes come with scene files.
 const SHAPES: [&str; 11] = [
-    "plane", "rectangle", "disc", "triangle", "sphere", "ellipsoid", "cone", "cylinder", "capsule", "box", "torus",
+    "plane",
+    "rectangle",
+    "disc",
+    "triangle",
+    "sphere",
+    "ellipsoid",
+    "cone",
+    "cylinder",
+    "capsule",
+    "box",
+    "torus",
 ];
 
 /// The list, and the chosen object with all it has.
@@ -74,10 +84,13 @@ fn editor(ui: &mut Ui, model: &mut Model, i: usize, mut object: Object) {
     for (k, part) in object.parts.iter_mut().enumerate() {
         ui.push_id(k, |ui| {
             if several {
-                egui::CollapsingHeader::new(format!("part {}: {}", k + 1, shape_name(&part.shape))).show(ui, |ui| {
-                    changed |= sizes(ui, part);
-                    changed |= pose(ui, &mut part.pose);
-                });
+                egui::CollapsingHeader::new(format!("part {}: {}", k + 1, part.shape.type_name())).show(
+                    ui,
+                    |ui| {
+                        changed |= sizes(ui, part);
+                        changed |= pose(ui, &mut part.pose);
+                    },
+                );
             } else {
                 changed |= sizes(ui, part);
             }
@@ -95,7 +108,8 @@ fn editor(ui: &mut Ui, model: &mut Model, i: usize, mut object: Object) {
 }
 
 fn pose(ui: &mut Ui, pose: &mut Pose) -> bool {
-    fields::point(ui, "position", &mut pose.translation) | fields::rotation(ui, "rotation", &mut pose.rotation)
+    fields::point(ui, "position", &mut pose.translation)
+        | fields::rotation(ui, "rotation", &mut pose.rotation)
 }
 
 /// The sizes of a shape.
@@ -146,25 +160,8 @@ fn sizes(ui: &mut Ui, part: &mut Part) -> bool {
 
 fn kind_name(object: &Object) -> &'static str {
     match object.parts.as_slice() {
-        [part] => shape_name(&part.shape),
+        [part] => part.shape.type_name(),
         _ => "composite",
-    }
-}
-
-fn shape_name(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Plane => "plane",
-        Shape::Rectangle { .. } => "rectangle",
-        Shape::Disc { .. } => "disc",
-        Shape::Triangle { .. } => "triangle",
-        Shape::Sphere { .. } => "sphere",
-        Shape::Ellipsoid { .. } => "ellipsoid",
-        Shape::Cone { .. } => "cone",
-        Shape::Cylinder { .. } => "cylinder",
-        Shape::Capsule { .. } => "capsule",
-        Shape::Box { .. } => "box",
-        Shape::Torus { .. } => "torus",
-        Shape::Mesh(_) => "mesh",
     }
 }
 
@@ -195,7 +192,7 @@ mod tests {
     fn every_shape_can_be_added() {
         let mut scene = Scene::parse("[camera]\neye = [0, 3, 6]", "test".as_ref()).expect("a scene");
         for name in SHAPES {
-            assert_eq!(shape_name(&shape(name)), name, "it is what was asked for");
+            assert_eq!(shape(name).type_name(), name, "it is what was asked for");
             edit::add_object(&mut scene, name, shape(name)).expect("room");
         }
         scene.validate().expect("a scene that can be saved");

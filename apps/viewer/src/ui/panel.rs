@@ -17,7 +17,9 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &Seen) {
         CollapsingHeader::new("Shadows").default_open(true).show(ui, |ui| shadows(ui, model));
         CollapsingHeader::new("Lights").default_open(true).show(ui, |ui| lights::show(ui, model));
         CollapsingHeader::new("Objects").default_open(true).show(ui, |ui| objects::show(ui, model));
-        CollapsingHeader::new("Teaching").default_open(true).show(ui, |ui| teaching::section(ui, model, seen));
+        CollapsingHeader::new("Teaching")
+            .default_open(true)
+            .show(ui, |ui| teaching::section(ui, model, seen));
         CollapsingHeader::new("Settings").show(ui, |ui| settings(ui, model));
     });
 }
@@ -43,7 +45,8 @@ fn shadows(ui: &mut Ui, model: &mut Model) {
     if settings.layout == Layout::Difference {
         ui.horizontal(|ui| {
             let label = ui.label("brightest");
-            ui.add(Slider::new(&mut settings.error_scale, ERROR_SCALES).logarithmic(true)).labelled_by(label.id);
+            ui.add(Slider::new(&mut settings.error_scale, ERROR_SCALES).logarithmic(true))
+                .labelled_by(label.id);
         });
     }
 }
@@ -84,9 +87,13 @@ fn way(ui: &mut Ui, label: &str, way: &mut Way) {
         let combo = ComboBox::from_id_salt("way").selected_text(way.name()).show_ui(ui, |ui| {
             for other in Way::all() {
                 let chosen = other.name() == way.name();
-                if ui.selectable_label(chosen, other.name()).on_hover_text(other.summary()).clicked() && !chosen {
+                if ui.selectable_label(chosen, other.name()).on_hover_text(other.summary()).clicked()
+                    && !chosen
+                {
                     *way = match (other, *way) {
-                        (Way::Technique(technique, _), Way::Technique(_, soft)) => Way::Technique(technique, soft),
+                        (Way::Technique(technique, _), Way::Technique(_, soft)) => {
+                            Way::Technique(technique, soft)
+                        }
                         (other, _) => other,
                     };
                 }
@@ -161,7 +168,11 @@ fn options(ui: &mut Ui, technique: &mut Technique) {
                     let slider = Slider::new(&mut value, low..=high).logarithmic(high > 100.0);
                     let slider = if whole { slider.integer() } else { slider };
                     if ui.add(slider).labelled_by(label.id).changed() {
-                        set(if whole { format!("{}", value.round() as i64) } else { format!("{}", value as f32) });
+                        set(if whole {
+                            format!("{}", value.round() as i64)
+                        } else {
+                            format!("{}", value as f32)
+                        });
                     }
                 }
                 _ => {}

@@ -77,7 +77,9 @@ impl Lesson {
             }
             let of_light = !teaching.chosen_light || light == model.light;
             let of_object = match model.chosen {
-                Some(Item::Object(object)) => moment.primitives.get(primitive).is_some_and(|p| p.object == object),
+                Some(Item::Object(object)) => {
+                    moment.primitives.get(primitive).is_some_and(|p| p.object == object)
+                }
                 _ => true,
             };
             of_light && of_object
@@ -107,10 +109,14 @@ impl Lesson {
         self.kinds = drawing.lines.iter().map(|line| line.kind).collect();
         self.kinds.sort_unstable();
         self.kinds.dedup();
-        self.strokes = drawing.lines.into_iter().map(|line| {
-            let (color, width) = look(line.kind);
-            Stroke { points: line.points, closed: line.closed, color, width }
-        }).collect();
+        self.strokes = drawing
+            .lines
+            .into_iter()
+            .map(|line| {
+                let (color, width) = look(line.kind);
+                Stroke { points: line.points, closed: line.closed, color, width }
+            })
+            .collect();
         self.key = Some(Key {
             scene: model.scene().clone(),
             time: model.clock.time,
@@ -186,8 +192,16 @@ pub(crate) fn legend(painter: &Painter, rect: Rect, lesson: &Lesson) {
     for (i, (kind, text)) in rows.into_iter().enumerate() {
         let y = area.top() + 14.0 + 18.0 * i as f32;
         let ([r, g, b, a], width) = look(kind);
-        let color = egui::Color32::from_rgba_unmultiplied((r * 255.0) as u8, (g * 255.0) as u8, (b * 255.0) as u8, (a * 255.0) as u8);
-        painter.line_segment([pos2(area.left() + 8.0, y), pos2(area.left() + 30.0, y)], egui::Stroke::new(width.max(1.5), color));
+        let color = egui::Color32::from_rgba_unmultiplied(
+            (r * 255.0) as u8,
+            (g * 255.0) as u8,
+            (b * 255.0) as u8,
+            (a * 255.0) as u8,
+        );
+        painter.line_segment(
+            [pos2(area.left() + 8.0, y), pos2(area.left() + 30.0, y)],
+            egui::Stroke::new(width.max(1.5), color),
+        );
         painter.galley(pos2(area.left() + 38.0, y - 0.5 * text.size().y), text, Color32::WHITE);
     }
 }
@@ -195,10 +209,14 @@ pub(crate) fn legend(painter: &Painter, rect: Rect, lesson: &Lesson) {
 /// The panel's section.
 pub(crate) fn section(ui: &mut Ui, model: &mut Model, seen: &Seen) {
     let teaching = &mut model.settings.teaching;
-    ui.checkbox(&mut teaching.outlines, "outlines").on_hover_text("Edges of umbra, penumbra and antumbra on flat receivers");
-    ui.checkbox(&mut teaching.rays, "tangent rays").on_hover_text("From the light along the occluder to the shadow's edge");
-    ui.checkbox(&mut teaching.volumes, "shadow volumes").on_hover_text("The polygons that the technique volume draws");
-    ui.checkbox(&mut teaching.map, "map from the light").on_hover_text("What the technique map keeps of the chosen light");
+    ui.checkbox(&mut teaching.outlines, "outlines")
+        .on_hover_text("Edges of umbra, penumbra and antumbra on flat receivers");
+    ui.checkbox(&mut teaching.rays, "tangent rays")
+        .on_hover_text("From the light along the occluder to the shadow's edge");
+    ui.checkbox(&mut teaching.volumes, "shadow volumes")
+        .on_hover_text("The polygons that the technique volume draws");
+    ui.checkbox(&mut teaching.map, "map from the light")
+        .on_hover_text("What the technique map keeps of the chosen light");
     ui.checkbox(&mut teaching.conics, "conics").on_hover_text("Kind and numbers of the shadows' outlines");
     ui.checkbox(&mut teaching.chosen_light, "of the chosen light alone");
     for note in &seen.lesson.notes {
@@ -240,7 +258,8 @@ pub(crate) fn map(ui: &Ui, rect: Rect, model: &Model, seen: &Seen) {
                 let size = size * (rect.width() * 0.35 / size.x).min(rect.height() * 0.4 / size.y).min(1.0);
                 // OpenGL's rows go up.
                 let [w, h] = [0, 1].map(|i| map.size[i] as f32 / TEXTURE[i] as f32);
-                let image = egui::Image::new((map.id, size)).uv(Rect::from_min_max(pos2(0.0, h), pos2(w, 0.0)));
+                let image =
+                    egui::Image::new((map.id, size)).uv(Rect::from_min_max(pos2(0.0, h), pos2(w, 0.0)));
                 let place = ui.add(image).rect;
                 if map.size == TEXTURE {
                     face_names(ui.painter(), place);
@@ -248,7 +267,9 @@ pub(crate) fn map(ui: &Ui, rect: Rect, model: &Model, seen: &Seen) {
                 ui.label(RichText::new(&map.caption).weak().small());
             }
             None => {
-                ui.label(format!("There is no map of {name}: only the technique map has one, and of lights that are on"));
+                ui.label(format!(
+                    "There is no map of {name}: only the technique map has one, and of lights that are on"
+                ));
             }
         });
 }
