@@ -43,6 +43,9 @@ pub(crate) fn run(options: Options) -> Result<(), ViewerError> {
     let events = EventLoop::<Wake>::with_user_event()
         .build()
         .map_err(|error| ViewerError::NoDisplay(error.to_string()))?;
+    if options.json {
+        put(&report::keys())?;
+    }
     let proxy = events.create_proxy();
     let size = options.size.or(remembered.size).unwrap_or([1280, 800]);
     let mut app = App {
@@ -121,6 +124,8 @@ struct Running {
     printed: Option<String>,
     /// The interface's name of the picture of maps.
     map_id: Option<egui::TextureId>,
+    /// Frames drawn so far.
+    frames: u64,
 }
 
 /// How long after a change more samples are worth their time.
@@ -180,6 +185,7 @@ impl App {
             hidden: false,
             printed: None,
             map_id: None,
+            frames: 0,
         })
     }
 
@@ -332,6 +338,7 @@ impl Running {
         self.painter.paint_and_update_textures(size, scale, &primitives, &mut textures);
         self.window.window.pre_present_notify();
         self.window.swap()?;
+        self.frames += 1;
         if sides != self.seen.sides {
             // What is said of a picture is said in the frame after it.
             self.seen.sides = sides;
@@ -496,16 +503,24 @@ impl Running {
         scale: f32,
     ) -> Result<(), ViewerError> {
         let top = size[1] as i32 - rect[1] - rect[3];
-        let state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
+        let mut state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
+        state["fullscreen"] = self.window.window.fullscreen().is_some().into();
+        state["input"] = self.context.input(report::input);
         let line = state.to_string();
         if self.printed.as_ref() == Some(&line) {
             return Ok(());
         }
-        let mut out = std::io::stdout().lock();
-        writeln!(out, "{line}").and_then(|()| out.flush()).map_err(ViewerError::Stdout)?;
         self.printed = Some(line);
-        Ok(())
+        // A frame that looks like the one before is not worth a line.
+        state["frames"] = self.frames.into();
+        put(&state)
     }
+}
+
+/// Writes a line.
+fn put(line: &serde_json::Value) -> Result<(), ViewerError> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{line}").and_then(|()| out.flush()).map_err(ViewerError::Stdout)
 }
 
 impl Drop for Running {

@@ -37,7 +37,7 @@ pub struct Options {
     pub size: Option<[u32; 2]>,
     /// Whether to forget what was remembered.
     pub fresh: bool,
-    /// Whether to print the state as a line of JSON on standard output whenever it changes.
+    /// Whether to print lines of JSON on standard output: the keys, then the state whenever it changes.
     pub json: bool,
 }
 

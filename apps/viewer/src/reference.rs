@@ -47,13 +47,6 @@ pub(crate) struct Traced {
     pub(crate) stale: bool,
 }
 
-impl Traced {
-    /// Whether there is nothing more to come for what was last asked.
-    pub(crate) fn finished(&self) -> bool {
-        !self.stale && self.samples >= self.target
-    }
-}
-
 /// Refines the reference picture of one scene at one time in the background.
 ///
 /// Works on its own threads, one fewer than the machine has cores, and sleeps when the picture is finished. Should the

@@ -30,15 +30,6 @@ impl Layout {
             Self::Difference => "Error map",
         }
     }
-
-    /// Its name in what the program remembers and prints.
-    pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Single => "single",
-            Self::Split => "split",
-            Self::Difference => "difference",
-        }
-    }
 }
 
 /// What is drawn over the picture to teach.

@@ -223,7 +223,7 @@ pub(crate) struct ViewArgs {
     /// Begin as at the first start: forget settings, scene and window size
     #[arg(long)]
     pub(crate) fresh: bool,
-    /// Print the state as a line of JSON on standard output whenever it changes
+    /// Print the keys, then the state whenever it changes, each as a line of JSON on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }
