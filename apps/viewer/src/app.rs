@@ -4,7 +4,6 @@ use std::io::Write;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use antumbra::glam::DVec2;
 use antumbra_scene::Scene;
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
@@ -12,6 +11,8 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, Window, WindowId};
 
+use crate::canvas::lines::Stroke;
+use crate::canvas::map_view::MapPicture;
 use crate::canvas::{Canvas, Side, View};
 use crate::gl_window::GlWindow;
 use crate::model::document::Document;
@@ -19,7 +20,8 @@ use crate::model::settings::{Antialiasing, Settings};
 use crate::model::{Model, Request};
 use crate::reference::Refinement;
 use crate::remembered::Remembered;
-use crate::ui::{self, Seen};
+use crate::ui::teaching::Lesson;
+use crate::ui::{self, MapImage, Seen};
 use crate::{Options, ViewerError, report};
 
 /// What wakes the loop from outside.
@@ -120,6 +122,8 @@ struct Running {
     vsync: bool,
     hidden: bool,
     printed: Option<String>,
+    /// The interface's name of the picture of maps.
+    map_id: Option<egui::TextureId>,
     /// Frames drawn so far.
     frames: u64,
 }
@@ -180,6 +184,7 @@ impl App {
             vsync: self.model.settings.vsync,
             hidden: false,
             printed: None,
+            map_id: None,
             frames: 0,
         })
     }
@@ -351,7 +356,13 @@ impl Running {
     }
 
     /// The scene in the window's framebuffer.
-    fn draw(&mut self, model: &Model, rect: [i32; 4], scale: f32, size: [u32; 2]) -> Result<[Side; 2], ViewerError> {
+    fn draw(
+        &mut self,
+        model: &Model,
+        rect: [i32; 4],
+        scale: f32,
+        size: [u32; 2],
+    ) -> Result<[Side; 2], ViewerError> {
         let now = self.last_frame;
         let shown = (model.scene().clone(), model.clock.time, [rect[2], rect[3]]);
         let same = self.last_shown.as_ref().is_some_and(|(scene, time, size)| {
@@ -368,7 +379,7 @@ impl Running {
         } else {
             self.refinement.rest();
         }
-        let strokes = ui::overlay::strokes(model, DVec2::new(f64::from(rect[2]), f64::from(rect[3])));
+        let strokes = self.strokes(model)?;
         let samples = self.samples(model, still);
         let view = View {
             scene: model.scene(),
@@ -382,18 +393,51 @@ impl Running {
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: model.settings.timing,
         };
-        self.painter.clear(size, [0.0, 0.0, 0.0, 1.0]);
+        let map = match model.settings.teaching.map && rect[2] > 0 && rect[3] > 0 {
+            true => self.canvas.map(&view, model.light)?,
+            false => None,
+        };
+        self.canvas.clear(size);
         let start = Instant::now();
         let sides = self.canvas.draw(&view)?;
         self.seen.traced = view.traced.map(|t| (t.samples, t.target, t.stale));
         if !still {
             self.last_cost = start.elapsed();
         }
+        self.show_map(map);
         self.seen.frame(model, &sides, still);
         if still && self.seen.wants_error(model) {
             self.seen.error = self.canvas.error(model.scene().image.exposure as f32);
         }
         Ok(sides)
+    }
+
+    /// Lines over the picture: marks, and what teaches.
+    fn strokes(&mut self, model: &Model) -> Result<Vec<Stroke>, ViewerError> {
+        let mut strokes = ui::overlay::strokes(model);
+        if Lesson::is_empty(&model.settings.teaching) {
+            self.seen.lesson.clear();
+        } else if !self.seen.lesson.is_current(model) {
+            let setting = self.canvas.describe(model.scene(), model.clock.time)?;
+            self.seen.lesson.learn(model, setting.moment(), &setting.described);
+            // The legend and the numbers are shown in the frame after.
+            self.window.window.request_redraw();
+        }
+        strokes.extend(self.seen.lesson.strokes.iter().cloned());
+        Ok(strokes)
+    }
+
+    /// Gives the interface the picture of a map.
+    fn show_map(&mut self, map: Option<MapPicture>) {
+        let before = self.seen.map.take();
+        self.seen.map = map.map(|map| {
+            // The texture stays the same for as long as there is a canvas.
+            let id = *self.map_id.get_or_insert_with(|| self.painter.register_native_texture(map.texture));
+            MapImage { id, size: map.size, caption: map.caption }
+        });
+        if before != self.seen.map {
+            self.window.window.request_redraw();
+        }
     }
 
     /// Samples a pixel.
@@ -405,7 +449,13 @@ impl Running {
             Antialiasing::Auto if self.canvas.info().software => {
                 if still && self.last_cost < Duration::from_millis(150) { 4.min(most) } else { 1 }
             }
-            Antialiasing::Auto => if still { 8.min(most) } else { 4.min(most) },
+            Antialiasing::Auto => {
+                if still {
+                    8.min(most)
+                } else {
+                    4.min(most)
+                }
+            }
         }
     }
 
@@ -424,7 +474,10 @@ impl Running {
 
     /// Writes what the picture shows.
     fn screenshot(&mut self, model: &Model, path: &std::path::Path) -> Result<(), String> {
-        let Some((_, _, size)) = &self.last_shown else { return Err("nothing was drawn yet".into()) };
+        let Some(size) = self.last_shown.as_ref().map(|shown| shown.2) else {
+            return Err("nothing was drawn yet".into());
+        };
+        let strokes = self.strokes(model).map_err(|error| error.to_string())?;
         let view = View {
             scene: model.scene(),
             time: model.clock.time,
@@ -432,7 +485,7 @@ impl Running {
             components: &model.components,
             rect: [0, 0, size[0], size[1]],
             samples: self.samples(model, true),
-            strokes: &ui::overlay::strokes(model, DVec2::new(f64::from(size[0]), f64::from(size[1]))),
+            strokes: &strokes,
             scale: self.context.pixels_per_point(),
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: false,
@@ -442,7 +495,13 @@ impl Running {
     }
 
     /// Prints the state if it is not what was printed last.
-    fn print(&mut self, model: &Model, rect: [i32; 4], size: [u32; 2], scale: f32) -> Result<(), ViewerError> {
+    fn print(
+        &mut self,
+        model: &Model,
+        rect: [i32; 4],
+        size: [u32; 2],
+        scale: f32,
+    ) -> Result<(), ViewerError> {
         let top = size[1] as i32 - rect[1] - rect[3];
         let mut state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
         state["fullscreen"] = self.window.window.fullscreen().is_some().into();
@@ -466,6 +525,7 @@ fn put(line: &serde_json::Value) -> Result<(), ViewerError> {
 
 impl Drop for Running {
     fn drop(&mut self) {
+        // It deletes the picture of maps as well, which it was told of; that the canvas does so again does no harm.
         self.painter.destroy();
     }
 }
@@ -473,7 +533,9 @@ impl Drop for Running {
 /// A rectangle of the interface in pixels from the bottom left of a window of this size.
 fn pixels(rect: egui::Rect, scale: f32, size: [u32; 2]) -> [i32; 4] {
     let [w, h] = size.map(|side| side as f32);
-    let (left, right) = ((rect.left() * scale).round().clamp(0.0, w), (rect.right() * scale).round().clamp(0.0, w));
-    let (top, bottom) = ((rect.top() * scale).round().clamp(0.0, h), (rect.bottom() * scale).round().clamp(0.0, h));
+    let (left, right) =
+        ((rect.left() * scale).round().clamp(0.0, w), (rect.right() * scale).round().clamp(0.0, w));
+    let (top, bottom) =
+        ((rect.top() * scale).round().clamp(0.0, h), (rect.bottom() * scale).round().clamp(0.0, h));
     [left, h - bottom, right - left, bottom - top].map(|x| x.max(0.0) as i32)
 }

@@ -13,6 +13,7 @@ mod reference;
 mod remembered;
 mod report;
 mod screenshot;
+mod teach;
 mod ui;
 
 pub use error::ViewerError;
@@ -69,5 +70,7 @@ pub fn display_available() -> bool {
     if cfg!(any(windows, target_os = "macos")) {
         return true;
     }
-    ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"].iter().any(|name| std::env::var_os(name).is_some_and(|v| !v.is_empty()))
+    ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"]
+        .iter()
+        .any(|name| std::env::var_os(name).is_some_and(|v| !v.is_empty()))
 }

@@ -1,6 +1,6 @@
 //! The state as JSON, for programs that drive or watch this one (`--json`).
 
-use antumbra_scene::{LightKind, Shape};
+use antumbra_scene::LightKind;
 use egui::accesskit::{NodeId, Rect, TreeUpdate};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -65,24 +65,6 @@ pub(crate) fn input(input: &egui::InputState) -> Value {
     })
 }
 
-/// What a shape is called in a scene file.
-fn shape(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Plane => "plane",
-        Shape::Rectangle { .. } => "rectangle",
-        Shape::Disc { .. } => "disc",
-        Shape::Triangle { .. } => "triangle",
-        Shape::Sphere { .. } => "sphere",
-        Shape::Ellipsoid { .. } => "ellipsoid",
-        Shape::Cone { .. } => "cone",
-        Shape::Cylinder { .. } => "cylinder",
-        Shape::Capsule { .. } => "capsule",
-        Shape::Box { .. } => "box",
-        Shape::Torus { .. } => "torus",
-        Shape::Mesh(_) => "mesh",
-    }
-}
-
 /// The state of the program.
 pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2], scale: f32) -> Value {
     let scene = model.scene();
@@ -112,8 +94,9 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         .iter()
         .enumerate()
         .map(|(i, object)| {
-            let here = moment.primitives.iter().find(|p| p.object == i).map(|p| p.pose.translation.to_array());
-            let shapes: Vec<&str> = object.parts.iter().map(|part| shape(&part.shape)).collect();
+            let here =
+                moment.primitives.iter().find(|p| p.object == i).map(|p| p.pose.translation.to_array());
+            let shapes: Vec<&str> = object.parts.iter().map(|part| part.shape.type_name()).collect();
             json!({ "name": object.name, "position": here, "shapes": shapes })
         })
         .collect();
@@ -133,8 +116,13 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         .map(|side| {
             json!({
                 "objection": side.objection,
-                "pairs": side.stats.map(|s| s.pairs),
-                "polygons": side.stats.map(|s| s.polygons),
+                "stats": side.stats.map(|s| json!({
+                    "pairs": s.pairs,
+                    "drawn_pairs": s.drawn_pairs,
+                    "polygons": s.polygons,
+                    "tiles": s.tiles,
+                    "touched_tiles": s.touched_tiles,
+                })),
             })
         })
         .collect();
@@ -166,6 +154,12 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         "still": seen.still,
         "traced": seen.traced.map(|(samples, target, stale)| json!([samples, target, stale])),
         "error": seen.error,
+        "lesson": {
+            "lines": seen.lesson.strokes.len(),
+            "facts": seen.lesson.facts.iter().map(|f| json!({ "title": f.title, "lines": f.lines })).collect::<Vec<_>>(),
+            "notes": seen.lesson.notes,
+            "map": seen.map.as_ref().map(|map| json!({ "caption": map.caption, "size": map.size })),
+        },
         "controls": seen.controls,
     })
 }
