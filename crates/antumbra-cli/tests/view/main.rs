@@ -8,6 +8,7 @@
 mod files;
 mod keys;
 mod mouse;
+mod panel;
 mod screen;
 mod shadows;
 mod techniques;

@@ -287,11 +287,33 @@ impl Viewer<'_> {
         find(&self.state).expect("it was just there")
     }
 
-    /// Clicks a control by its name; see [`Self::control`].
+    /// Clicks a control by its name; see [`Self::control`]. In the panel it is scrolled to where it can be seen.
     #[track_caller]
     pub(crate) fn click(&mut self, role: &str, label: &str) {
-        let control = self.control(role, label, 0);
-        self.click_at(middle(&control));
+        let bottom = self.number("/window/1") - 45.0;
+        for _ in 0..60 {
+            let control = self.control(role, label, 0);
+            let [x, y] = middle(&control);
+            if y < bottom && y > 0.0 {
+                return self.click_at([x, y]);
+            }
+            self.move_to([x, 0.5 * bottom]);
+            self.wheel(if y > 0.0 { -1 } else { 1 });
+            self.wait("the panel scrolls", |state| {
+                let all = state["controls"].as_array().map(Vec::as_slice).unwrap_or_default();
+                all.iter().all(|other| other["label"] != label || other["rect"] != control["rect"])
+            });
+        }
+        panic!("{role} {label:?} does not come into view");
+    }
+
+    /// Writes something into a field that has a name, and presses Enter.
+    #[track_caller]
+    pub(crate) fn enter(&mut self, role: &str, label: &str, text: &str) {
+        self.click(role, label);
+        self.press("Ctrl+A");
+        self.write(text);
+        self.press("Enter");
     }
 
     /// Clicks one after another: a menu of the bar, or a list to choose from, and what it opens.
