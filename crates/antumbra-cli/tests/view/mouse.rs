@@ -167,7 +167,7 @@ fn the_divider() {
     v.pick(&[("ComboBox", "right"), ("Button", "none")]);
     v.wait("shadows left, none right", |state| state["settings"]["ways"] == json!(["analytic", "none"]));
     assert_eq!(v.number("/settings/divider"), 0.5, "in the middle at first");
-    let (dark, _) = shadows::probes(v);
+    let (dark, _) = shadows::probes(v, shadows::MARGIN);
     let (before, shot) = (v.at(0.5, 0.3), v.shot());
     let _ = shot;
     let mut from = before;

@@ -25,10 +25,9 @@ shape = { type = "box", size = [1, 1, 1] }
 translation = [0.0, 1.2, 0.0]
 "#;
 
-/// Whether the reference has all its rays and shows what is there now.
-fn traced(state: &Value) -> bool {
-    let [samples, target, stale] = [0, 1, 2].map(|i| &state["traced"][i]);
-    samples.as_u64() > Some(0) && samples == target && *stale == false
+/// Whether the reference has so many rays a pixel and shows what is there now.
+fn traced(state: &Value, rays: u64) -> bool {
+    state["traced"][0].as_u64() >= Some(rays) && state["traced"][2] == false
 }
 
 fn choose(v: &mut Viewer<'_>, label: &str, way: &str) {
@@ -43,12 +42,12 @@ fn each_draws_the_shadow() {
     let mut viewer = desk.view(&["ball.toml", "--fresh", "--size", "760x480"]);
     let v = &mut viewer;
     v.without_marks();
-    let (dark, _) = shadows::probes(v);
+    let (dark, _) = shadows::probes(v, shadows::MARGIN);
     for way in ["none", "composite", "projected", "volume", "map", "raytraced", "analytic"] {
         choose(v, "technique", way);
         v.wait(way, |state| state["settings"]["ways"][0] == way);
         if way == "raytraced" {
-            v.wait("all rays", traced);
+            v.wait("some rays", |state| traced(state, 8));
         }
         assert_eq!(v.state["sides"][0]["objection"], Value::Null, "{way} has nothing against a ball over a floor");
         if way == "none" {
@@ -60,7 +59,8 @@ fn each_draws_the_shadow() {
             if way == "composite" {
                 painted(v, &dark);
             }
-            shadows::see(v);
+            // The papers' ellipse of a ball is another one than the exact.
+            shadows::see_about(v, if way == "composite" { 0.35 } else { shadows::MARGIN });
         }
     }
     options(v);
@@ -94,16 +94,16 @@ fn comparison(v: &mut Viewer<'_>) {
     v.click("Button", "Error map");
     choose(v, "against", "none");
     v.wait("an error", |state| state["settings"]["ways"][1] == "none" && state["error"][1].as_f64() > Some(0.2));
-    let (dark, lit) = shadows::probes(v);
+    let (dark, lit) = shadows::probes(v, shadows::MARGIN);
     let (dark, lit) = (dark[0], lit[0]);
     v.see("the error is where the shadow is", |_, now| {
         let (inside, outside) = (now.light(dark), now.light(lit));
         if inside > outside + 60 { Ok(()) } else { Err(format!("{inside} inside, {outside} outside")) }
     });
     choose(v, "against", "raytraced");
-    v.wait("all rays", |state| traced(state) && state["error"][0].as_f64().is_some());
-    v.still();
-    assert!(v.number("/error/0") < 0.05, "the closed form is near the reference: {}", v.state["error"]);
+    v.wait("the closed form is near the reference", |state| {
+        traced(state, 16) && state["error"][0].as_f64().is_some_and(|rms| rms < 0.02)
+    });
     v.click("Button", "Single");
     v.wait("one picture", |state| state["settings"]["layout"] == "single" && state["sides"].as_array().map(Vec::len) == Some(1));
 }

@@ -150,7 +150,7 @@ impl Viewer<'_> {
         let found = self.read(patience, |state| if wanted(state) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) });
         if found.is_none() {
             let mut short = self.state.clone();
-            short["controls"] = self.labels().into();
+            short["controls"] = self.labels().join(", ").into();
             panic!("not within {patience:?}: {what}; the last state is {short:#}");
         }
     }
@@ -292,10 +292,19 @@ impl Viewer<'_> {
     pub(crate) fn click(&mut self, role: &str, label: &str) {
         let bottom = self.number("/window/1") - 45.0;
         for _ in 0..60 {
+            while let Ok(line) = self.lines.try_recv() {
+                self.state = serde_json::from_str(&line).expect("a line of JSON");
+            }
             let control = self.control(role, label, 0);
             let [x, y] = middle(&control);
             if y < bottom && y > 0.0 {
-                return self.click_at([x, y]);
+                self.move_to([x, y]);
+                // What was done before may have moved it meanwhile.
+                if self.control(role, label, 0)["rect"] == control["rect"] {
+                    self.button(1, true);
+                    return self.button(1, false);
+                }
+                continue;
             }
             self.move_to([x, 0.5 * bottom]);
             self.wheel(if y > 0.0 { -1 } else { 1 });

@@ -105,7 +105,7 @@ fn it_rests_when_nothing_happens() {
     v.press_for("Space", "time stands", |state| state["playing"] == false);
     idles(v, "after a pause");
     v.press_for("E", "the reference", |state| state["settings"]["layout"] == "split");
-    v.wait("all rays", |state| state["traced"][0].as_u64() > Some(0) && state["traced"][0] == state["traced"][1]);
+    v.wait_within(Duration::from_secs(240), "all rays", |state| state["traced"][0].as_u64() > Some(0) && state["traced"][0] == state["traced"][1]);
     idles(v, "after the last ray");
 }
 
