@@ -25,7 +25,9 @@ fn what_is_saved_is_what_was_loaded() {
 
     assert_eq!(desk.screen.title(v.window), "scene.toml – antumbra", "the title");
     v.press("N");
-    v.press_for("N", "the light moves", |state| (state["lights"][0]["position"][0].as_f64().unwrap_or(0.0) + 1.3).abs() < 1e-9);
+    v.press_for("N", "the light moves", |state| {
+        (state["lights"][0]["position"][0].as_f64().unwrap_or(0.0) + 1.3).abs() < 1e-9
+    });
     assert_eq!(desk.screen.title(v.window), "scene.toml* – antumbra", "changed");
     assert_eq!(load(), first, "not before it is saved");
     v.press_for("Ctrl+S", "saved", saved);
@@ -71,7 +73,10 @@ fn what_was_looked_at_is_remembered() {
     v.press("+");
     v.wait("faster", |state| state["speed"] == 2.0);
     let settings = v.state["settings"].clone();
-    assert!(settings["layout"] == "split" && settings["ways"][0] != default["ways"][0], "they changed: {settings}");
+    assert!(
+        settings["layout"] == "split" && settings["ways"][0] != default["ways"][0],
+        "they changed: {settings}"
+    );
     v.press("Ctrl+Q");
     assert!(v.wait_for_end().success(), "it ends well");
     drop(viewer);

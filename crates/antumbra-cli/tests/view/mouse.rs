@@ -35,7 +35,10 @@ fn orbit(v: &mut Viewer<'_>) {
     v.drag(1, from, plus(from, [160.0, 0.0]));
     let turned = v.vector("/camera/eye");
     assert_eq!(v.vector("/camera/target"), target, "round the target");
-    assert!((turned.length() - eye.length()).abs() < 1e-9 && (turned.y - eye.y).abs() < 1e-9, "as far and as high: {turned}");
+    assert!(
+        (turned.length() - eye.length()).abs() < 1e-9 && (turned.y - eye.y).abs() < 1e-9,
+        "as far and as high: {turned}"
+    );
     // The height of the picture is half a turn; what is dragged to the right turns to the right.
     let angle = std::f64::consts::PI * 160.0 / v.picture()[3];
     let wanted = antumbra::glam::DQuat::from_rotation_y(-angle) * eye;
@@ -136,7 +139,10 @@ fn level(v: &mut Viewer<'_>, pointer: &str, by: [f64; 2]) {
     let from = v.project(before);
     v.drag(1, from, plus(from, by));
     let after = v.vector(pointer);
-    assert!(after.y == before.y && after.distance(before) > 0.3, "{pointer} went level from {before} to {after}");
+    assert!(
+        after.y == before.y && after.distance(before) > 0.3,
+        "{pointer} went level from {before} to {after}"
+    );
     // The point of the ball that is held is on its surface: nearer, so that its centre moves a little farther.
     let seen = v.project(after);
     assert!(near(seen, plus(from, by), 8.0), "{pointer} stays under the pointer: it is at {seen:?}");
@@ -151,7 +157,10 @@ fn upright(v: &mut Viewer<'_>, pointer: &str, by: f64) {
     v.drag(1, from, plus(from, [0.0, by]));
     v.hold("Ctrl", false);
     let after = v.vector(pointer);
-    assert!(after.x == before.x && after.z == before.z, "{pointer} keeps its place on the floor: {before} to {after}");
+    assert!(
+        after.x == before.x && after.z == before.z,
+        "{pointer} keeps its place on the floor: {before} to {after}"
+    );
     assert!((after.y - before.y) * by < -1.0, "{pointer} goes up with the pointer: {before} to {after}");
     shadows::see(v);
 }
@@ -168,13 +177,13 @@ fn the_divider() {
     v.wait("shadows left, none right", |state| state["settings"]["ways"] == json!(["analytic", "none"]));
     assert_eq!(v.number("/settings/divider"), 0.5, "in the middle at first");
     let (dark, _) = shadows::probes(v, shadows::MARGIN);
-    let (before, shot) = (v.at(0.5, 0.3), v.shot());
-    let _ = shot;
-    let mut from = before;
+    let mut from = v.at(0.5, 0.3);
     for part in [0.9, 0.15] {
         let to = v.at(part, 0.3);
         v.drag(1, from, to);
-        v.wait("the divider", |state| (state["settings"]["divider"].as_f64().unwrap_or(0.0) - part).abs() < 0.005);
+        v.wait("the divider", |state| {
+            (state["settings"]["divider"].as_f64().unwrap_or(0.0) - part).abs() < 0.005
+        });
         v.see("shadows left of the divider alone", |_, now| {
             let lit = dark.iter().filter(|p| now.light(**p) > 250).count();
             match (lit, part > 0.5) {

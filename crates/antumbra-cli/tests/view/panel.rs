@@ -44,7 +44,8 @@ fn lights_and_objects() {
     v.without_marks();
     lights(v);
     objects(v);
-    for _ in 0..60 {
+    // Some more times than there were steps.
+    for _ in 0..120 {
         v.press("Ctrl+Z");
     }
     v.wait("as it was", |state| state["modified"] == false && count(state, "objects") == 2);
@@ -100,7 +101,9 @@ fn lights(v: &mut Viewer<'_>) {
 
     for (i, kind) in (1..).zip(["point", "sphere", "disc", "rectangle", "spot", "directional"]) {
         v.pick(&[("Button", "Add light"), ("Button", kind)]);
-        v.wait("one more", |state| count(state, "lights") == i + 1 && state["chosen"] == json!({ "light": i }));
+        v.wait("one more", |state| {
+            count(state, "lights") == i + 1 && state["chosen"] == json!({ "light": i })
+        });
     }
     for i in (1..=6).rev() {
         v.click("Button", "Remove light");
@@ -115,7 +118,11 @@ fn write(v: &mut Viewer<'_>, label: &str, text: &str) {
     v.enter(FIELD, label, text);
     v.wait(&format!("{label} is {text}"), |state| {
         let mut all = state["controls"].as_array().map(Vec::as_slice).unwrap_or_default().iter();
-        all.any(|c| c["label"] == label && c["role"] == FIELD && c["value"].as_str().is_some_and(|x| x.starts_with(text)))
+        all.any(|c| {
+            c["label"] == label
+                && c["role"] == FIELD
+                && c["value"].as_str().is_some_and(|x| x.starts_with(text))
+        })
     });
 }
 
@@ -171,7 +178,9 @@ fn objects(v: &mut Viewer<'_>) {
     ];
     for (i, (kind, field)) in (2..).zip(shapes) {
         v.pick(&[("Button", "Add object"), ("Button", kind)]);
-        v.wait("one more", |state| count(state, "objects") == i + 1 && state["objects"][i]["shapes"] == json!([kind]));
+        v.wait("one more", |state| {
+            count(state, "objects") == i + 1 && state["objects"][i]["shapes"] == json!([kind])
+        });
         if !field.is_empty() {
             write(v, field, "0.25");
         }
@@ -205,7 +214,9 @@ fn teaching_and_settings() {
         });
     }
     tick(v, "conics", "/settings/teaching/conics", true);
-    v.wait("an ellipse and its numbers", |state| state["lesson"]["facts"].to_string().to_lowercase().contains("ellipse"));
+    v.wait("an ellipse and its numbers", |state| {
+        state["lesson"]["facts"].to_string().to_lowercase().contains("ellipse")
+    });
     tick(v, "conics", "/settings/teaching/conics", false);
     tick(v, "of the chosen light alone", "/settings/teaching/chosen_light", false);
 
@@ -250,12 +261,14 @@ fn menus() {
     pick(v, "Edit", "Undo");
     v.wait("one light", |state| count(state, "lights") == 1);
     pick(v, "Edit", "Redo");
-    v.wait("two lights", |state| count(state, "lights") == 2 );
+    v.wait("two lights", |state| count(state, "lights") == 2);
     v.press_for("2", "the new one", |state| state["chosen"] == json!({ "light": 1 }));
     pick(v, "Edit", "Delete");
     v.wait("one light", |state| count(state, "lights") == 1);
     pick(v, "File", "Save picture");
-    v.wait("a picture", |state| state["message"].as_str().is_some_and(|text| text.contains("antumbra-001.png")));
+    v.wait("a picture", |state| {
+        state["message"].as_str().is_some_and(|text| text.contains("antumbra-001.png"))
+    });
     assert!(desk.file("antumbra-001.png").exists(), "it was written");
     pick(v, "File", "Save as");
     v.wait("a question", |state| state["dialog"].as_str().is_some_and(|text| text.starts_with("saveas")));

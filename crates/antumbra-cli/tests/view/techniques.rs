@@ -49,7 +49,11 @@ fn each_draws_the_shadow() {
         if way == "raytraced" {
             v.wait("some rays", |state| traced(state, 8));
         }
-        assert_eq!(v.state["sides"][0]["objection"], Value::Null, "{way} has nothing against a ball over a floor");
+        assert_eq!(
+            v.state["sides"][0]["objection"],
+            Value::Null,
+            "{way} has nothing against a ball over a floor"
+        );
         if way == "none" {
             v.see("no shadow", |_, now| match dark.iter().filter(|p| now.light(**p) < 200).count() {
                 0 => Ok(()),
@@ -93,7 +97,9 @@ fn options(v: &mut Viewer<'_>) {
 fn comparison(v: &mut Viewer<'_>) {
     v.click("Button", "Error map");
     choose(v, "against", "none");
-    v.wait("an error", |state| state["settings"]["ways"][1] == "none" && state["error"][1].as_f64() > Some(0.2));
+    v.wait("an error", |state| {
+        state["settings"]["ways"][1] == "none" && state["error"][1].as_f64() > Some(0.2)
+    });
     let (dark, lit) = shadows::probes(v, shadows::MARGIN);
     let (dark, lit) = (dark[0], lit[0]);
     v.see("the error is where the shadow is", |_, now| {
@@ -105,7 +111,9 @@ fn comparison(v: &mut Viewer<'_>) {
         traced(state, 16) && state["error"][0].as_f64().is_some_and(|rms| rms < 0.02)
     });
     v.click("Button", "Single");
-    v.wait("one picture", |state| state["settings"]["layout"] == "single" && state["sides"].as_array().map(Vec::len) == Some(1));
+    v.wait("one picture", |state| {
+        state["settings"]["layout"] == "single" && state["sides"].as_array().map(Vec::len) == Some(1)
+    });
 }
 
 #[test]
@@ -146,11 +154,15 @@ fn the_reference_does_not_stop_the_interface() {
         v.press("V");
         let wanted = json!((before + antumbra::glam::DVec3::Y * 0.1).to_array());
         v.wait_within(Duration::from_secs(2), "the light moves", |state| {
-            (state["lights"][0]["position"][1].as_f64().unwrap_or(0.0) - wanted[1].as_f64().unwrap_or(1.0)).abs() < 1e-9
+            (state["lights"][0]["position"][1].as_f64().unwrap_or(0.0) - wanted[1].as_f64().unwrap_or(1.0))
+                .abs()
+                < 1e-9
         });
         samples = samples.max(v.state["traced"][0].as_u64().unwrap_or(0));
     }
-    v.wait("rays of what is there now", |state| state["traced"][2] == false && state["traced"][0].as_u64() > Some(1));
+    v.wait("rays of what is there now", |state| {
+        state["traced"][2] == false && state["traced"][0].as_u64() > Some(1)
+    });
     let first = v.number("/traced/0");
     v.wait("more rays", |state| state["traced"][0].as_f64() > Some(first));
 }

@@ -59,8 +59,14 @@ impl Desk {
         let started = Instant::now();
         let mut command = Command::new(env!("CARGO_BIN_EXE_antumbra"));
         command.args(["view", "--json"]).args(arguments).current_dir(self.folder.path());
-        command.env("DISPLAY", self.screen.display()).env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
-        command.env("XDG_CONFIG_HOME", self.file("config")).env_remove("XMODIFIERS").env_remove("WINIT_X11_SCALE_FACTOR");
+        command
+            .env("DISPLAY", self.screen.display())
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET");
+        command
+            .env("XDG_CONFIG_HOME", self.file("config"))
+            .env_remove("XMODIFIERS")
+            .env_remove("WINIT_X11_SCALE_FACTOR");
         if std::env::var_os("ANTUMBRA_HARDWARE").is_none() {
             command.env("LIBGL_ALWAYS_SOFTWARE", "1");
         }
@@ -83,10 +89,20 @@ impl Desk {
         });
         let keys = match lines.recv_timeout(PATIENCE) {
             Ok(line) => serde_json::from_str::<Value>(&line).expect("a line of JSON")["keys"].clone(),
-            Err(error) => panic!("no line of output ({error}): {}", errors_of(self.folder.path(), &mut child)),
+            Err(error) => {
+                panic!("no line of output ({error}): {}", errors_of(self.folder.path(), &mut child))
+            }
         };
-        let mut viewer =
-            Viewer { desk: self, child, lines, state: Value::Null, keys, window: 0, first_still: Duration::ZERO, pressed: Vec::new() };
+        let mut viewer = Viewer {
+            desk: self,
+            child,
+            lines,
+            state: Value::Null,
+            keys,
+            window: 0,
+            first_still: Duration::ZERO,
+            pressed: Vec::new(),
+        };
         viewer.wait("the first picture", |state| state["still"] == true);
         viewer.first_still = started.elapsed();
         viewer.window = self.screen.window().expect("a window is on the screen");
@@ -143,15 +159,29 @@ impl Viewer<'_> {
 
     /// The same, with less patience.
     #[track_caller]
-    pub(crate) fn wait_within(&mut self, patience: Duration, what: &str, mut wanted: impl FnMut(&Value) -> bool) {
+    pub(crate) fn wait_within(
+        &mut self,
+        patience: Duration,
+        what: &str,
+        mut wanted: impl FnMut(&Value) -> bool,
+    ) {
         if wanted(&self.state) {
             return;
         }
-        let found = self.read(patience, |state| if wanted(state) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) });
+        let found = self.read(patience, |state| {
+            if wanted(state) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
         if found.is_none() {
             let mut short = self.state.clone();
             short["controls"] = self.labels().join(", ").into();
             panic!("not within {patience:?}: {what}; the last state is {short:#}");
+        }
+    }
+
+    /// Reads what was printed so far.
+    pub(crate) fn catch_up(&mut self) {
+        while let Ok(line) = self.lines.try_recv() {
+            self.state = serde_json::from_str(&line).expect("a line of JSON");
         }
     }
 
@@ -268,82 +298,6 @@ impl Viewer<'_> {
         self.button(button, false);
     }
 
-    /// The names of all controls.
-    pub(crate) fn labels(&self) -> Vec<String> {
-        let controls = self.state["controls"].as_array().cloned().unwrap_or_default();
-        controls.iter().filter_map(|control| Some(format!("{} {:?}", control["role"].as_str()?, control["label"].as_str()?))).collect()
-    }
-
-    /// A control by its name, and by its role where labels go by the same name; the `index`th of several. Waits for
-    /// it.
-    #[track_caller]
-    pub(crate) fn control(&mut self, role: &str, label: &str, index: usize) -> Value {
-        let find = |state: &Value| {
-            let controls = state["controls"].as_array()?;
-            let mut found = controls.iter().filter(|c| c["label"] == label && (role.is_empty() || c["role"] == role));
-            found.nth(index).cloned()
-        };
-        self.wait(&format!("the control {role} {label:?}"), |state| find(state).is_some());
-        find(&self.state).expect("it was just there")
-    }
-
-    /// Clicks a control by its name; see [`Self::control`]. In the panel it is scrolled to where it can be seen.
-    #[track_caller]
-    pub(crate) fn click(&mut self, role: &str, label: &str) {
-        let bottom = self.number("/window/1") - 45.0;
-        for _ in 0..60 {
-            while let Ok(line) = self.lines.try_recv() {
-                self.state = serde_json::from_str(&line).expect("a line of JSON");
-            }
-            let control = self.control(role, label, 0);
-            let [x, y] = middle(&control);
-            if y < bottom && y > 0.0 {
-                self.move_to([x, y]);
-                // What was done before may have moved it meanwhile.
-                if self.control(role, label, 0)["rect"] == control["rect"] {
-                    self.button(1, true);
-                    return self.button(1, false);
-                }
-                continue;
-            }
-            self.move_to([x, 0.5 * bottom]);
-            self.wheel(if y > 0.0 { -1 } else { 1 });
-            self.wait("the panel scrolls", |state| {
-                let all = state["controls"].as_array().map(Vec::as_slice).unwrap_or_default();
-                all.iter().all(|other| other["label"] != label || other["rect"] != control["rect"])
-            });
-        }
-        panic!("{role} {label:?} does not come into view");
-    }
-
-    /// Writes something into a field that has a name, and presses Enter.
-    #[track_caller]
-    pub(crate) fn enter(&mut self, role: &str, label: &str, text: &str) {
-        self.click(role, label);
-        self.press("Ctrl+A");
-        self.write(text);
-        self.press("Enter");
-    }
-
-    /// Clicks one after another: a menu of the bar, or a list to choose from, and what it opens.
-    #[track_caller]
-    pub(crate) fn pick(&mut self, controls: &[(&str, &str)]) {
-        for (role, label) in controls {
-            self.click(role, label);
-        }
-    }
-
-    /// Switches off the marks that are drawn over the picture.
-    #[track_caller]
-    pub(crate) fn without_marks(&mut self) {
-        self.pick(&[("Button", "View"), ("CheckBox", "Marks")]);
-        self.wait("no marks", |state| state["settings"]["marks"] == false);
-        self.press("Escape");
-        self.wait("the menu is closed", |state| {
-            state["controls"].as_array().is_some_and(|all| all.iter().all(|c| c["label"] != "Marks"))
-        });
-    }
-
     // What is seen.
 
     /// The rectangle of the picture: x, y, width, height in the window, pixels.
@@ -364,7 +318,12 @@ impl Viewer<'_> {
         let (eye, target, up) = (camera("eye"), camera("target"), camera("up"));
         let forward = (target - eye).normalize();
         let right = forward.cross(up).normalize();
-        let view = DMat4::from_cols(right.extend(0.0), right.cross(forward).extend(0.0), (-forward).extend(0.0), eye.extend(1.0));
+        let view = DMat4::from_cols(
+            right.extend(0.0),
+            right.cross(forward).extend(0.0),
+            (-forward).extend(0.0),
+            eye.extend(1.0),
+        );
         let p = view.inverse().transform_point3(point);
         let scale = 0.5 * h / (0.5 * self.number("/camera/fov_y")).tan();
         let seen = DVec2::new(p.x, -p.y) * (scale / -p.z);
@@ -381,7 +340,11 @@ impl Viewer<'_> {
     /// Waits until the window shows what is wanted: the server may be a little behind the program. Fails with what was
     /// said last.
     #[track_caller]
-    pub(crate) fn see<T>(&mut self, what: &str, mut wanted: impl FnMut(&Self, &Shot) -> Result<T, String>) -> T {
+    pub(crate) fn see<T>(
+        &mut self,
+        what: &str,
+        mut wanted: impl FnMut(&Self, &Shot) -> Result<T, String>,
+    ) -> T {
         let end = Instant::now() + Duration::from_secs(10);
         loop {
             let shot = self.shot();
@@ -405,7 +368,8 @@ impl Viewer<'_> {
         let stat = fs::read_to_string(format!("/proc/{}/stat", self.child.id())).expect("it runs");
         let behind_name = stat.rsplit(')').next().unwrap_or_default();
         // utime and stime, in ticks of 1/100 s on every Linux.
-        let ticks: u64 = behind_name.split_whitespace().skip(11).take(2).filter_map(|n| n.parse::<u64>().ok()).sum();
+        let ticks: u64 =
+            behind_name.split_whitespace().skip(11).take(2).filter_map(|n| n.parse::<u64>().ok()).sum();
         Duration::from_millis(10 * ticks)
     }
 
@@ -438,10 +402,4 @@ impl Drop for Viewer<'_> {
         drop(self.child.kill());
         drop(self.child.wait());
     }
-}
-
-/// The middle of a control.
-pub(crate) fn middle(control: &Value) -> [f64; 2] {
-    let number = |i: usize| control["rect"][i].as_f64().unwrap_or_default();
-    [number(0) + 0.5 * number(2), number(1) + 0.5 * number(3)]
 }

@@ -52,7 +52,9 @@ fn covered(v: &mut Viewer<'_>, desk: &Desk) {
     v.press("N");
     std::thread::sleep(Duration::from_millis(300));
     desk.screen.uncover(cover);
-    v.wait("the light moved", |state| (state["lights"][0]["position"][0].as_f64().unwrap_or(0.0) + 0.8).abs() < 1e-9);
+    v.wait("the light moved", |state| {
+        (state["lights"][0]["position"][0].as_f64().unwrap_or(0.0) + 0.8).abs() < 1e-9
+    });
     shadows::see(v);
 }
 
@@ -60,8 +62,8 @@ fn covered(v: &mut Viewer<'_>, desk: &Desk) {
 fn screens_of_many_pixels() {
     let Some(desk) = Desk::new() else { return };
     desk.write("ball.toml", shadows::BALL);
-    let mut viewer = desk
-        .view_with(&["ball.toml", "--fresh", "--size", "640x420"], &[("WINIT_X11_SCALE_FACTOR", "2")]);
+    let mut viewer =
+        desk.view_with(&["ball.toml", "--fresh", "--size", "640x420"], &[("WINIT_X11_SCALE_FACTOR", "2")]);
     let v = &mut viewer;
     assert_eq!((v.number("/scale"), &v.state["window"]), (2.0, &json!([1280, 840])), "two pixels a point");
     v.without_marks();
@@ -75,7 +77,10 @@ fn screens_of_many_pixels() {
     let from = v.project(v.light(0));
     v.drag(1, from, [from[0] + 100.0, from[1] + 20.0]);
     let seen = v.project(v.light(0));
-    assert!((seen[0] - from[0] - 100.0).abs() < 2.0, "what is dragged stays under the pointer: {from:?} to {seen:?}");
+    assert!(
+        (seen[0] - from[0] - 100.0).abs() < 2.0,
+        "what is dragged stays under the pointer: {from:?} to {seen:?}"
+    );
     shadows::see(v);
 }
 
@@ -96,7 +101,8 @@ fn idles(v: &mut Viewer<'_>, when: &str) {
 #[test]
 fn it_rests_when_nothing_happens() {
     let Some(desk) = Desk::new() else { return };
-    let motion = "intensity = 30.0\nmotion = { type = \"orbit\", center = [0, 4, 0], axis = [0, 1, 0], period = 8 }";
+    let motion =
+        "intensity = 30.0\nmotion = { type = \"orbit\", center = [0, 4, 0], axis = [0, 1, 0], period = 8 }";
     desk.write("ball.toml", &shadows::BALL.replace("intensity = 30.0", motion));
     let mut viewer = desk.view(&["ball.toml", "--fresh", "--size", "480x320"]);
     let v = &mut viewer;
@@ -105,7 +111,9 @@ fn it_rests_when_nothing_happens() {
     v.press_for("Space", "time stands", |state| state["playing"] == false);
     idles(v, "after a pause");
     v.press_for("E", "the reference", |state| state["settings"]["layout"] == "split");
-    v.wait_within(Duration::from_secs(240), "all rays", |state| state["traced"][0].as_u64() > Some(0) && state["traced"][0] == state["traced"][1]);
+    v.wait_within(Duration::from_secs(240), "all rays", |state| {
+        state["traced"][0].as_u64() > Some(0) && state["traced"][0] == state["traced"][1]
+    });
     idles(v, "after the last ray");
 }
 
