@@ -202,7 +202,9 @@ impl App {
         }
     }
 
-    fn remember(&self) {
+    fn remember(&mut self) {
+        // What is looked at while measuring is nobody's choice.
+        self.model.stop_measuring();
         let Some(running) = &self.running else { return };
         let window = &running.window.window;
         let size = window.inner_size().to_logical::<u32>(window.scale_factor());
@@ -322,6 +324,7 @@ impl Running {
         self.title(model);
 
         let sides = self.draw(model, rect, scale, size)?;
+        ui::timing::note(model, &sides, [rect[2], rect[3]]);
         let primitives = self.context.tessellate(output.shapes, scale);
         let mut textures = output.textures_delta;
         self.painter.paint_and_update_textures(size, scale, &primitives, &mut textures);
@@ -330,6 +333,9 @@ impl Running {
         if sides != self.seen.sides {
             // What is said of a picture is said in the frame after it.
             self.seen.sides = sides;
+            self.window.window.request_redraw();
+        }
+        if rect[2] > 0 && rect[3] > 0 && self.seen.wants_frame(model) {
             self.window.window.request_redraw();
         }
         if json {
@@ -374,6 +380,7 @@ impl Running {
             scale,
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: model.settings.timing,
+            redraw: self.seen.wants_frame(model),
         };
         self.painter.clear(size, [0.0, 0.0, 0.0, 1.0]);
         let start = Instant::now();
@@ -392,6 +399,8 @@ impl Running {
     /// Samples a pixel.
     fn samples(&self, model: &Model, still: bool) -> u32 {
         let most = self.canvas.most_samples();
+        // Frames that are measured are all of one kind, moving or not.
+        let still = still && !model.settings.timing;
         match model.settings.antialiasing {
             Antialiasing::Samples(n) => n.clamp(1, most),
             // A software renderer takes as many times as long.
@@ -429,6 +438,7 @@ impl Running {
             scale: self.context.pixels_per_point(),
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: false,
+            redraw: false,
         };
         let (width, height, pixels) = self.canvas.screenshot(&view).map_err(|error| error.to_string())?;
         crate::screenshot::write(path, width, height, &pixels).map_err(|error| error.to_string())

@@ -95,6 +95,18 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
             })
         })
         .collect();
+    let timing: Vec<Value> = model
+        .timing
+        .tracks()
+        .iter()
+        .filter_map(|track| {
+            let [plain, shadows] = track.medians()?;
+            let way = track.way.to_string();
+            Some(
+                json!({ "way": way, "plain_ms": plain, "shadows_ms": shadows, "frames": track.frames.len() }),
+            )
+        })
+        .collect();
     json!({
         "scene": model.document.source().name(),
         "modified": model.document.is_modified(),
@@ -123,6 +135,8 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         "still": seen.still,
         "traced": seen.traced.map(|(samples, target, stale)| json!([samples, target, stale])),
         "error": seen.error,
+        "timing": timing,
+        "measuring": model.timing.measuring().map(|(way, ..)| way.to_string()),
         "controls": seen.controls,
     })
 }

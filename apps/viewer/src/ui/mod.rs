@@ -1,5 +1,8 @@
 //! The interface: what is round the picture and over it, and what pointer and keys do.
 
+mod dialog;
+mod files;
+mod help;
 mod keys;
 mod menu;
 pub(crate) mod overlay;
@@ -7,12 +10,15 @@ mod panel;
 mod picture;
 mod status;
 pub(crate) mod style;
+pub(crate) mod timing;
+mod unsaved;
 
 use antumbra_host::ContextInfo;
 use egui::{CentralPanel, Frame, Panel, Rect, Ui};
 
 use crate::canvas::Side;
 use crate::model::Model;
+use crate::model::files::Files;
 use crate::model::pick::Grip;
 use crate::model::settings::Layout;
 use crate::report::Control;
@@ -33,6 +39,8 @@ pub(crate) struct Seen {
     pub(crate) renderer: String,
     /// Which clock frame times are of.
     pub(crate) clock: &'static str,
+    /// The dialog for a file, while there is one.
+    files: Option<Files>,
     /// What the pointer drags.
     grip: Option<Grip>,
     /// Whether it drags the divider.
@@ -50,6 +58,7 @@ impl Seen {
             controls: Vec::new(),
             renderer: info.renderer.clone(),
             clock,
+            files: None,
             grip: None,
             dividing: false,
         }
@@ -61,6 +70,12 @@ impl Seen {
         if sides.iter().any(|side| side.fresh) {
             self.error = None;
         }
+    }
+
+    /// Whether a frame is to be drawn to measure it, although nothing in it changed.
+    pub(crate) fn wants_frame(&self, model: &Model) -> bool {
+        let refused = [0, 1].map(|i| self.sides[i].objection.is_some());
+        model.timing.measuring().is_some() || model.timing.wants_frame(&model.settings, refused)
     }
 
     /// Whether the error of one side against the other is asked for and not known.
@@ -75,6 +90,7 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     if !context.input(|input| input.pointer.any_down() || !input.keys_down.is_empty()) {
         model.document.end_stroke();
     }
+    files::escape(&context, seen);
     keys::press(&context, model);
     keys::drop_files(&context, model);
     Panel::top("menu").show(root, |ui| menu::bar(ui, model));
@@ -82,5 +98,12 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     if model.settings.panel {
         Panel::right("panel").default_size(300.0).min_size(240.0).show(root, |ui| panel::show(ui, model, seen));
     }
-    CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner
+    if model.settings.timing {
+        let panel = Panel::bottom("timing").resizable(true).default_size(190.0).size_range(120.0..=420.0);
+        panel.show(root, |ui| timing::show(ui, model, seen));
+    }
+    let picture =
+        CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner;
+    dialog::show(&context, model, seen);
+    picture
 }
