@@ -213,7 +213,9 @@ impl App {
         }
     }
 
-    fn remember(&self) {
+    fn remember(&mut self) {
+        // What is looked at while measuring is nobody's choice.
+        self.model.stop_measuring();
         let Some(running) = &self.running else { return };
         let window = &running.window.window;
         let size = window.inner_size().to_logical::<u32>(window.scale_factor());
@@ -333,6 +335,7 @@ impl Running {
         self.title(model);
 
         let sides = self.draw(model, rect, scale, size)?;
+        ui::timing::note(model, &sides, [rect[2], rect[3]]);
         let primitives = self.context.tessellate(output.shapes, scale);
         let mut textures = output.textures_delta;
         self.painter.paint_and_update_textures(size, scale, &primitives, &mut textures);
@@ -342,6 +345,9 @@ impl Running {
         if sides != self.seen.sides {
             // What is said of a picture is said in the frame after it.
             self.seen.sides = sides;
+            self.window.window.request_redraw();
+        }
+        if rect[2] > 0 && rect[3] > 0 && self.seen.wants_frame(model) {
             self.window.window.request_redraw();
         }
         if json {
@@ -392,6 +398,7 @@ impl Running {
             scale,
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: model.settings.timing,
+            redraw: self.seen.wants_frame(model),
         };
         let map = match model.settings.teaching.map && rect[2] > 0 && rect[3] > 0 {
             true => self.canvas.map(&view, model.light)?,
@@ -443,6 +450,8 @@ impl Running {
     /// Samples a pixel.
     fn samples(&self, model: &Model, still: bool) -> u32 {
         let most = self.canvas.most_samples();
+        // Frames that are measured are all of one kind, moving or not.
+        let still = still && !model.settings.timing;
         match model.settings.antialiasing {
             Antialiasing::Samples(n) => n.clamp(1, most),
             // A software renderer takes as many times as long.
@@ -489,6 +498,7 @@ impl Running {
             scale: self.context.pixels_per_point(),
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: false,
+            redraw: false,
         };
         let (width, height, pixels) = self.canvas.screenshot(&view).map_err(|error| error.to_string())?;
         crate::screenshot::write(path, width, height, &pixels).map_err(|error| error.to_string())

@@ -5,8 +5,10 @@ pub(crate) mod clock;
 pub(crate) mod command;
 pub(crate) mod document;
 pub(crate) mod edit;
+pub(crate) mod files;
 pub(crate) mod pick;
 pub(crate) mod settings;
+pub(crate) mod timing;
 pub(crate) mod way;
 
 use std::collections::HashMap;
@@ -23,6 +25,7 @@ use command::{Command, STEP};
 use document::{Document, Source};
 use pick::Item;
 use settings::{Layout, Settings};
+use timing::Timing;
 use way::Way;
 
 /// What the window is asked to do.
@@ -101,6 +104,10 @@ pub(crate) struct Model {
     pub(crate) parked: Parked,
     /// What is asked.
     pub(crate) dialog: Option<Dialog>,
+    /// What is to be done after "Save as".
+    pub(crate) after_save: Option<Then>,
+    /// How long frames take.
+    pub(crate) timing: Timing,
     /// What was said last.
     pub(crate) message: Option<Message>,
     /// For the window.
@@ -127,6 +134,8 @@ impl Model {
             components: Vec::new(),
             parked: Parked::default(),
             dialog: None,
+            after_save: None,
+            timing: Timing::default(),
             message: None,
             requests: Vec::new(),
             gallery,
@@ -195,19 +204,26 @@ impl Model {
             Command::Open => self.before(Then::Open),
             Command::NextScene(forward) => self.next_scene(forward),
             Command::Save => match self.document.source().clone() {
-                Source::File(path) => self.save(&path),
-                Source::Gallery(_) => self.dialog = Some(Dialog::SaveAs),
+                Source::File(path) => drop(self.save(&path)),
+                Source::Gallery(_) => self.save_as(None),
             },
-            Command::SaveAs => self.dialog = Some(Dialog::SaveAs),
+            Command::SaveAs => self.save_as(None),
             Command::Screenshot => self.requests.push(Request::Screenshot(screenshot_path())),
             Command::Help => {
                 self.dialog = if self.dialog == Some(Dialog::Help) { None } else { Some(Dialog::Help) };
             }
             Command::Panel => self.settings.panel = !self.settings.panel,
-            Command::Timing => self.settings.timing = !self.settings.timing,
+            Command::Timing => {
+                self.stop_measuring();
+                self.settings.timing = !self.settings.timing;
+            }
             Command::Fullscreen => self.requests.push(Request::Fullscreen),
             Command::Escape => {
-                if self.dialog.take().is_none() {
+                if self.dialog.is_some() {
+                    self.close();
+                } else if self.timing.measuring().is_some() {
+                    self.stop_measuring();
+                } else {
                     self.chosen = None;
                     self.component = None;
                 }
@@ -218,6 +234,7 @@ impl Model {
 
     /// Does something that loses changes, after asking.
     pub(crate) fn before(&mut self, then: Then) {
+        self.after_save = None;
         if self.document.is_modified() {
             self.dialog = Some(Dialog::Unsaved(then));
         } else {
@@ -233,6 +250,39 @@ impl Model {
             Then::Show(source) => self.show(source),
             Then::Open => self.dialog = Some(Dialog::Open),
         }
+    }
+
+    /// Saves, and then goes on. Where there is no file yet, or it cannot be written, asks for one first.
+    pub(crate) fn save_then(&mut self, then: Then) {
+        match self.document.source().clone() {
+            Source::File(path) if self.save(&path) => self.go_on(then),
+            _ => self.save_as(Some(then)),
+        }
+    }
+
+    /// Asks where to save.
+    fn save_as(&mut self, then: Option<Then>) {
+        self.dialog = Some(Dialog::SaveAs);
+        self.after_save = then;
+    }
+
+    /// Saves where the user said, and does what was to be done then; whether that worked.
+    pub(crate) fn save_here(&mut self, path: &Path) -> bool {
+        let saved = self.save(path);
+        if saved {
+            let then = self.after_save.take();
+            self.dialog = None;
+            if let Some(then) = then {
+                self.go_on(then);
+            }
+        }
+        saved
+    }
+
+    /// Closes the dialog; what was to be done after it is not done.
+    pub(crate) fn close(&mut self) {
+        self.dialog = None;
+        self.after_save = None;
     }
 
     /// Looks at another scene; the old one stays where that cannot be read.
@@ -255,16 +305,24 @@ impl Model {
                 self.components.clear();
                 self.parked.clear();
                 self.message = None;
+                self.stop_measuring();
+                self.timing.clear();
             }
             Err(error) => self.complain(error),
         }
     }
 
-    /// Writes the scene to a file.
-    pub(crate) fn save(&mut self, path: &Path) {
+    /// Writes the scene to a file; whether that worked.
+    pub(crate) fn save(&mut self, path: &Path) -> bool {
         match self.document.save(path) {
-            Ok(()) => self.say(format!("saved {}", path.display())),
-            Err(error) => self.complain(error),
+            Ok(()) => {
+                self.say(format!("saved {}", path.display()));
+                true
+            }
+            Err(error) => {
+                self.complain(error);
+                false
+            }
         }
     }
 
@@ -457,8 +515,21 @@ impl Model {
         self.clock.playing && self.clock.speed != 0.0 && moves()
     }
 
+    /// Measures every technique, one after the other; time stands still meanwhile.
+    pub(crate) fn measure_all(&mut self) {
+        self.stop_measuring();
+        self.settings.timing = true;
+        self.timing.start(&mut self.settings, &mut self.clock);
+    }
+
+    /// Ends that, and puts back what was looked at before.
+    pub(crate) fn stop_measuring(&mut self) {
+        self.timing.stop(&mut self.settings, &mut self.clock);
+    }
+
     /// Everything as it is at first, but for the scene.
     pub(crate) fn reset_settings(&mut self) {
+        self.stop_measuring();
         self.settings = Settings::default();
         self.clock.speed = 1.0;
         self.say("settings as at first");

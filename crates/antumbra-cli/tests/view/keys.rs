@@ -54,7 +54,14 @@ fn moves(v: &mut Viewer<'_>, key: &str, pointer: &str, by: DVec3) {
 
 fn camera(v: &mut Viewer<'_>) {
     let first = v.state["camera"].clone();
-    let axes = [("Y", DVec3::Y), ("A", -DVec3::Y), ("X", DVec3::X), ("S", -DVec3::X), ("C", DVec3::Z), ("D", -DVec3::Z)];
+    let axes = [
+        ("Y", DVec3::Y),
+        ("A", -DVec3::Y),
+        ("X", DVec3::X),
+        ("S", -DVec3::X),
+        ("C", DVec3::Z),
+        ("D", -DVec3::Z),
+    ];
     for (key, by) in axes {
         let target = v.vector("/camera/target");
         moves(v, key, "/camera/eye", by);
@@ -63,22 +70,36 @@ fn camera(v: &mut Viewer<'_>) {
     v.press("X");
     let changed = |state: &Value| state["camera"] != first;
     v.wait("another camera", changed);
-    v.press_for("F", "another camera", |state| (state["camera"]["target"][1].as_f64().unwrap_or(0.0) - 1.0).abs() < 1e-6);
+    v.press_for("F", "another camera", |state| {
+        (state["camera"]["target"][1].as_f64().unwrap_or(0.0) - 1.0).abs() < 1e-6
+    });
     let [left, top, w, h] = v.picture();
     for point in [DVec3::Y * 0.4, DVec3::Y * 1.6, DVec3::new(0.6, 1.0, 0.0), DVec3::new(-0.6, 1.0, 0.0)] {
         let [x, y] = v.project(point);
-        assert!(x > left && x < left + w && y > top && y < top + h, "F brings {point} into view, it is at {x}, {y}");
+        assert!(
+            x > left && x < left + w && y > top && y < top + h,
+            "F brings {point} into view, it is at {x}, {y}"
+        );
     }
     v.press_for("Home", "the camera of the file", |state| state["camera"] == first);
     assert_eq!(v.state["modified"], false, "looking is not changing");
 }
 
 fn light(v: &mut Viewer<'_>) {
-    let axes = [("V", DVec3::Y), ("B", -DVec3::Y), ("N", DVec3::X), ("M", -DVec3::X), (",", DVec3::Z), (".", -DVec3::Z)];
+    let axes = [
+        ("V", DVec3::Y),
+        ("B", -DVec3::Y),
+        ("N", DVec3::X),
+        ("M", -DVec3::X),
+        (",", DVec3::Z),
+        (".", -DVec3::Z),
+    ];
     for (key, by) in axes {
         moves(v, key, "/lights/0/position", by);
     }
-    v.press_for("H", "the second light", |state| state["light"] == 1 && state["chosen"] == json!({ "light": 1 }));
+    v.press_for("H", "the second light", |state| {
+        state["light"] == 1 && state["chosen"] == json!({ "light": 1 })
+    });
     moves(v, "V", "/lights/1/position", DVec3::Y);
     v.press_for("G", "the first light", |state| state["light"] == 0);
     for number in (1..=10).rev() {
@@ -204,7 +225,9 @@ fn scene(v: &mut Viewer<'_>) {
     v.press_for("Ctrl+Z", "one more again", |state| count(state) == lights + 1);
     v.press_for("Ctrl+Z", "none was added", |state| count(state) == lights && state["modified"] == false);
     for (key, dialog) in [("Ctrl+O", "open"), ("Ctrl+Shift+S", "saveas")] {
-        v.press_for(key, dialog, |state| state["dialog"].as_str().is_some_and(|text| text.starts_with(dialog)));
+        v.press_for(key, dialog, |state| {
+            state["dialog"].as_str().is_some_and(|text| text.starts_with(dialog))
+        });
         v.press_for("Escape", "no dialog", |state| state["dialog"] == Value::Null);
     }
     let own = v.state["scene"].clone();
@@ -217,7 +240,9 @@ fn scene(v: &mut Viewer<'_>) {
 /// F12 writes what the picture shows.
 fn picture(v: &mut Viewer<'_>, desk: &Desk) {
     let before = v.shot();
-    v.press_for("F12", "saved", |state| state["message"].as_str().is_some_and(|text| text.contains("antumbra-001.png")));
+    v.press_for("F12", "saved", |state| {
+        state["message"].as_str().is_some_and(|text| text.contains("antumbra-001.png"))
+    });
     let file = std::fs::File::open(desk.file("antumbra-001.png")).expect("it was written");
     let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().expect("a PNG");
     let mut bytes = vec![0; reader.output_buffer_size().expect("a size in memory")];

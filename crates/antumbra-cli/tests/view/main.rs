@@ -43,7 +43,9 @@ motion = { type = "orbit", center = [0, 4, 0], axis = [0, 1, 0], period = 8 }
     );
     for i in 3..=10 {
         let x = f64::from(i) - 6.5;
-        text += &format!("\n[[light]]\nname = \"lamp {i}\"\ntype = \"point\"\nposition = [{x}, 3.0, -3.0]\nintensity = 1.0\n");
+        text += &format!(
+            "\n[[light]]\nname = \"lamp {i}\"\ntype = \"point\"\nposition = [{x}, 3.0, -3.0]\nintensity = 1.0\n"
+        );
     }
     text + r#"
 # What shadows fall on.

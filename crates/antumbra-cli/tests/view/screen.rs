@@ -8,8 +8,8 @@ use x11rb::CURRENT_TIME;
 use x11rb::connection::Connection;
 use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
-    self, AtomEnum, ChangeWindowAttributesAux, ConfigureWindowAux, ConnectionExt as _, CreateWindowAux, EventMask,
-    ImageFormat, InputFocus, MapState, Window, WindowClass,
+    self, AtomEnum, ChangeWindowAttributesAux, ConfigureWindowAux, ConnectionExt as _, CreateWindowAux,
+    EventMask, ImageFormat, InputFocus, MapState, Window, WindowClass,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -81,7 +81,8 @@ impl Screen {
         let (connection, screen) = connect(&display);
         let root = connection.setup().roots[screen].root;
         let (low, high) = (connection.setup().min_keycode, connection.setup().max_keycode);
-        let mapping = connection.get_keyboard_mapping(low, high - low + 1).expect("sent").reply().expect("a keyboard");
+        let mapping =
+            connection.get_keyboard_mapping(low, high - low + 1).expect("sent").reply().expect("a keyboard");
         let columns = usize::from(mapping.keysyms_per_keycode).max(1);
         let keys = (low..=high).zip(mapping.keysyms.chunks(columns).map(<[u32]>::to_vec)).collect();
         // Requests to a window manager, which there is none of, go to the root window: this test sees them.
@@ -105,7 +106,8 @@ impl Screen {
         let seen = children.into_iter().filter_map(|window| {
             let attributes = self.connection.get_window_attributes(window).ok()?.reply().ok()?;
             let geometry = self.connection.get_geometry(window).ok()?.reply().ok()?;
-            let seen = attributes.map_state == MapState::VIEWABLE && attributes.class == WindowClass::INPUT_OUTPUT;
+            let seen =
+                attributes.map_state == MapState::VIEWABLE && attributes.class == WindowClass::INPUT_OUTPUT;
             seen.then_some((u32::from(geometry.width) * u32::from(geometry.height), window))
         });
         seen.max().map(|(_, window)| window)
@@ -114,7 +116,8 @@ impl Screen {
     /// The title of a window.
     pub(crate) fn title(&self, window: Window) -> String {
         let atom = self.atom("_NET_WM_NAME");
-        let reply = self.connection.get_property(false, window, atom, AtomEnum::ANY, 0, 1024).expect("sent").reply();
+        let reply =
+            self.connection.get_property(false, window, atom, AtomEnum::ANY, 0, 1024).expect("sent").reply();
         String::from_utf8(reply.expect("a property").value).expect("UTF-8")
     }
 
@@ -155,7 +158,8 @@ impl Screen {
 
     /// The key that makes a symbol, and whether Shift is held for it.
     fn keycode(&self, symbol: u32) -> (u8, bool) {
-        let found = |column: usize| self.keys.iter().find(|(_, symbols)| symbols.get(column) == Some(&symbol));
+        let found =
+            |column: usize| self.keys.iter().find(|(_, symbols)| symbols.get(column) == Some(&symbol));
         match (found(0), found(1)) {
             (Some((code, _)), _) => (*code, false),
             (None, Some((code, _))) => (*code, true),
@@ -172,7 +176,8 @@ impl Screen {
     /// Presses keys together and releases them: `K`, `Ctrl+Shift+S`, `?`.
     pub(crate) fn chord(&self, text: &str) {
         let (mut held, mut key) = (Vec::new(), text);
-        while let Some((modifier, rest)) = key.split_once('+').filter(|(a, b)| !a.is_empty() && !b.is_empty()) {
+        while let Some((modifier, rest)) = key.split_once('+').filter(|(a, b)| !a.is_empty() && !b.is_empty())
+        {
             held.push(modifier);
             key = rest;
         }

@@ -59,8 +59,14 @@ impl Desk {
         let started = Instant::now();
         let mut command = Command::new(env!("CARGO_BIN_EXE_antumbra"));
         command.args(["view", "--json"]).args(arguments).current_dir(self.folder.path());
-        command.env("DISPLAY", self.screen.display()).env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
-        command.env("XDG_CONFIG_HOME", self.file("config")).env_remove("XMODIFIERS").env_remove("WINIT_X11_SCALE_FACTOR");
+        command
+            .env("DISPLAY", self.screen.display())
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET");
+        command
+            .env("XDG_CONFIG_HOME", self.file("config"))
+            .env_remove("XMODIFIERS")
+            .env_remove("WINIT_X11_SCALE_FACTOR");
         if std::env::var_os("ANTUMBRA_HARDWARE").is_none() {
             command.env("LIBGL_ALWAYS_SOFTWARE", "1");
         }
@@ -83,10 +89,20 @@ impl Desk {
         });
         let keys = match lines.recv_timeout(PATIENCE) {
             Ok(line) => serde_json::from_str::<Value>(&line).expect("a line of JSON")["keys"].clone(),
-            Err(error) => panic!("no line of output ({error}): {}", errors_of(self.folder.path(), &mut child)),
+            Err(error) => {
+                panic!("no line of output ({error}): {}", errors_of(self.folder.path(), &mut child))
+            }
         };
-        let mut viewer =
-            Viewer { desk: self, child, lines, state: Value::Null, keys, window: 0, first_still: Duration::ZERO, pressed: Vec::new() };
+        let mut viewer = Viewer {
+            desk: self,
+            child,
+            lines,
+            state: Value::Null,
+            keys,
+            window: 0,
+            first_still: Duration::ZERO,
+            pressed: Vec::new(),
+        };
         viewer.wait("the first picture", |state| state["still"] == true);
         viewer.first_still = started.elapsed();
         viewer.window = self.screen.window().expect("a window is on the screen");
@@ -143,11 +159,18 @@ impl Viewer<'_> {
 
     /// The same, with less patience.
     #[track_caller]
-    pub(crate) fn wait_within(&mut self, patience: Duration, what: &str, mut wanted: impl FnMut(&Value) -> bool) {
+    pub(crate) fn wait_within(
+        &mut self,
+        patience: Duration,
+        what: &str,
+        mut wanted: impl FnMut(&Value) -> bool,
+    ) {
         if wanted(&self.state) {
             return;
         }
-        let found = self.read(patience, |state| if wanted(state) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) });
+        let found = self.read(patience, |state| {
+            if wanted(state) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
         if found.is_none() {
             let mut short = self.state.clone();
             short["controls"] = self.labels().into();
@@ -271,7 +294,12 @@ impl Viewer<'_> {
     /// The names of all controls.
     pub(crate) fn labels(&self) -> Vec<String> {
         let controls = self.state["controls"].as_array().cloned().unwrap_or_default();
-        controls.iter().filter_map(|control| Some(format!("{} {:?}", control["role"].as_str()?, control["label"].as_str()?))).collect()
+        controls
+            .iter()
+            .filter_map(|control| {
+                Some(format!("{} {:?}", control["role"].as_str()?, control["label"].as_str()?))
+            })
+            .collect()
     }
 
     /// A control by its name, and by its role where labels go by the same name; the `index`th of several. Waits for
@@ -280,7 +308,8 @@ impl Viewer<'_> {
     pub(crate) fn control(&mut self, role: &str, label: &str, index: usize) -> Value {
         let find = |state: &Value| {
             let controls = state["controls"].as_array()?;
-            let mut found = controls.iter().filter(|c| c["label"] == label && (role.is_empty() || c["role"] == role));
+            let mut found =
+                controls.iter().filter(|c| c["label"] == label && (role.is_empty() || c["role"] == role));
             found.nth(index).cloned()
         };
         self.wait(&format!("the control {role} {label:?}"), |state| find(state).is_some());
@@ -323,7 +352,12 @@ impl Viewer<'_> {
         let (eye, target, up) = (camera("eye"), camera("target"), camera("up"));
         let forward = (target - eye).normalize();
         let right = forward.cross(up).normalize();
-        let view = DMat4::from_cols(right.extend(0.0), right.cross(forward).extend(0.0), (-forward).extend(0.0), eye.extend(1.0));
+        let view = DMat4::from_cols(
+            right.extend(0.0),
+            right.cross(forward).extend(0.0),
+            (-forward).extend(0.0),
+            eye.extend(1.0),
+        );
         let p = view.inverse().transform_point3(point);
         let scale = 0.5 * h / (0.5 * self.number("/camera/fov_y")).tan();
         let seen = DVec2::new(p.x, -p.y) * (scale / -p.z);
@@ -359,7 +393,8 @@ impl Viewer<'_> {
         let stat = fs::read_to_string(format!("/proc/{}/stat", self.child.id())).expect("it runs");
         let behind_name = stat.rsplit(')').next().unwrap_or_default();
         // utime and stime, in ticks of 1/100 s on every Linux.
-        let ticks: u64 = behind_name.split_whitespace().skip(11).take(2).filter_map(|n| n.parse::<u64>().ok()).sum();
+        let ticks: u64 =
+            behind_name.split_whitespace().skip(11).take(2).filter_map(|n| n.parse::<u64>().ok()).sum();
         Duration::from_millis(10 * ticks)
     }
 
