@@ -73,8 +73,8 @@ fn model(options: &Options, remembered: &Remembered) -> Result<Model, ViewerErro
     if let Some(path) = &options.scene {
         return Ok(Model::new(Document::load(path)?, settings, options.gallery.clone()));
     }
-    let first = options.gallery.first();
-    let document = match first {
+    let named = options.gallery.iter().find(|entry| Some(entry.name) == options.first.as_deref());
+    let document = match named.or(options.gallery.first()) {
         Some(entry) => entry.document()?,
         None => return Err(ViewerError::Option("there is no gallery; give a scene file".into())),
     };
