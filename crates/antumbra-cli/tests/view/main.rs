@@ -11,6 +11,7 @@ mod mouse;
 mod screen;
 mod shadows;
 mod techniques;
+mod tour;
 mod viewer;
 mod window;
 
