@@ -43,6 +43,7 @@ pub(crate) fn show(context: &Context, model: &mut Model, seen: &mut Seen, purpos
     };
     let mut cancelled = false;
     let answer = dialog::modal(context, name, 560.0, |ui| {
+        ui.set_min_width(ui.available_width());
         dialog::title(ui, name);
         folder(ui, files);
         let entered = list(ui, files);
@@ -184,7 +185,7 @@ fn row(ui: &mut Ui, files: &mut Files, index: usize) -> Option<Answer> {
         painter.rect_stroke(rect, 3.0, Stroke::new(1.0, ACCENT), StrokeKind::Inside);
     }
     icon(&painter, pos2(rect.left() + 15.0, rect.center().y), entry.is_folder);
-    let color = if chosen { visuals.strong_text_color() } else { visuals.text_color() };
+    let color = if chosen || response.hovered() { visuals.strong_text_color() } else { visuals.text_color() };
     let job = egui::text::LayoutJob::simple_singleline(entry.name.clone(), FontId::proportional(13.0), color);
     let job = egui::text::LayoutJob {
         wrap: egui::text::TextWrapping::truncate_at_width(rect.width() - 38.0),
@@ -251,9 +252,10 @@ fn path(ui: &mut Ui, files: &mut Files, begins: bool) -> Answer {
         }
         if response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
             answer = files.submit();
-            if files.replace.is_none() {
-                response.request_focus();
-            }
+        }
+        // Whatever had the keys before is gone.
+        if files.replace.is_none() && ui.memory(|memory| memory.focused().is_none()) {
+            response.request_focus();
         }
     });
     answer
