@@ -50,6 +50,8 @@ pub(crate) struct Files {
     pub(crate) text: String,
     /// Which entry was chosen last.
     pub(crate) chosen: Option<usize>,
+    /// Whether that was by keys, so that it may be out of sight.
+    pub(crate) moved: bool,
     /// What went wrong.
     pub(crate) error: Option<String>,
     /// A file that is there already, and would be replaced.
@@ -82,6 +84,7 @@ impl Files {
             entries: Vec::new(),
             text: suggestion.clone(),
             chosen: None,
+            moved: false,
             error: None,
             replace: None,
             suggestion,
@@ -146,6 +149,7 @@ impl Files {
             (Some(i), false) => i.saturating_sub(1),
         };
         self.choose(index);
+        self.moved = true;
     }
 
     /// Goes into an entry that is a folder, or takes it if it is a file.

@@ -41,7 +41,7 @@ pub(crate) fn modal<T>(
     content: impl FnOnce(&mut Ui) -> T,
 ) -> ModalResponse<T> {
     let frame = Frame::window(&context.global_style()).inner_margin(Margin::same(MARGIN));
-    let id = Id::new(title);
+    let id = Id::unique(title);
     let room = vec2(width.min(room(context).x), room(context).y);
     let area = Modal::default_area(id).default_size(room);
     let modal = Modal::new(id).area(area).frame(frame).backdrop_color(Color32::from_black_alpha(140));

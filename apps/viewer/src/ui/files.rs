@@ -3,8 +3,8 @@
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
-    Align2, Color32, Context, FontId, Id, Key, Label, Modifiers, Rect, RichText, Role, ScrollArea, Sense,
-    Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, Context, FontId, Id, Key, Label, Layout, Modifiers, Rect, RichText, Role,
+    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::style::ACCENT;
@@ -66,7 +66,7 @@ pub(crate) fn show(context: &Context, model: &mut Model, seen: &mut Seen, purpos
                 }
                 let replace = ui.button(RichText::new("Replace").color(dialog::ERROR));
                 let question = Label::new(format!("{name} is there already. Replace it?")).truncate();
-                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| ui.add(question));
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(question));
                 if replace.clicked() { files.replace() } else { Answer::Ask }
             }
             None => {
@@ -149,8 +149,7 @@ fn list(ui: &mut Ui, files: &mut Files) -> Answer {
         ui.spacing_mut().item_spacing.y = 0.0;
         // A folder begins at its top.
         let area = ScrollArea::vertical().id_salt(&files.folder).auto_shrink(false);
-        let moved = ui.memory(|memory| memory.data.get_temp(Id::new("moved")).unwrap_or(false));
-        ui.memory_mut(|memory| memory.data.remove::<bool>(Id::new("moved")));
+        let moved = std::mem::take(&mut files.moved);
         area.show_rows(ui, ROW, files.entries.len(), |ui, range| {
             if let Some(chosen) = files.chosen.filter(|_| moved) {
                 let top = ui.max_rect().top() + ROW * (chosen as f32 - range.start as f32);
@@ -222,19 +221,19 @@ fn icon(painter: &egui::Painter, at: egui::Pos2, is_folder: bool) {
 /// The path that is written.
 fn path(ui: &mut Ui, files: &mut Files, begins: bool) -> Answer {
     ui.add_space(4.0);
-    let id = Id::new("path of a file");
+    let id = Id::unique("path of a file");
     if ui.memory(|memory| memory.has_focus(id)) {
         let arrow = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         let step = if arrow(Key::ArrowDown) { Some(true) } else { arrow(Key::ArrowUp).then_some(false) };
         if let Some(forward) = step {
             files.step(forward);
-            ui.memory_mut(|memory| memory.data.insert_temp(Id::new("moved"), true));
             let end = files.text.chars().count();
             select(ui, id, end, end);
         }
     }
     let mut answer = Answer::Ask;
-    ui.horizontal(|ui| {
+    let size = vec2(ui.available_width(), 24.0);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         let label = ui.label("Path");
         let edit = TextEdit::singleline(&mut files.text)
             .id(id)

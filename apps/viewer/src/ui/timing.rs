@@ -2,8 +2,8 @@
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align, Align2, Button, Color32, FontId, Label, Layout, Rangef, Response, RichText, Role, ScrollArea, Sense, TextStyle,
-    Ui, UiBuilder, Vec2b, WidgetInfo, vec2,
+    Align, Align2, Button, Color32, FontId, Label, Layout, Rangef, Response, RichText, Role, ScrollArea,
+    Sense, TextStyle, Ui, UiBuilder, Vec2b, WidgetInfo, vec2,
 };
 use egui_plot::{Corner, GridMark, Legend, Line, LineStyle, Plot, PlotPoints};
 
@@ -71,15 +71,24 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &Seen) {
 
 fn head(ui: &mut Ui, model: &mut Model, seen: &Seen) {
     ui.horizontal(|ui| {
-        ui.label(RichText::new("Frame times").strong());
-        ui.add_space(6.0);
+        // Buttons come first where there is no room for more.
+        let is_narrow = ui.available_width() < 320.0;
+        if !is_narrow {
+            ui.label(RichText::new("Frame times").strong());
+            ui.add_space(6.0);
+        }
         match model.timing.measuring() {
             Some((way, number, of)) => {
                 if ui.button("Stop").on_hover_text("Escape").clicked() {
                     model.stop_measuring();
                 }
                 ui.spinner();
-                ui.label(format!("measuring {way}, {number} of {of}"));
+                let text = format!("measuring {way}, {number} of {of}");
+                let room = (ui.available_width() - 60.0).max(0.0);
+                ui.scope(|ui| {
+                    ui.set_max_width(room);
+                    ui.add(Label::new(text).truncate());
+                });
             }
             None => {
                 let button = ui.button("Measure all");
@@ -89,7 +98,8 @@ fn head(ui: &mut Ui, model: &mut Model, seen: &Seen) {
                 {
                     model.measure_all();
                 }
-                if ui.add_enabled(!model.timing.tracks().is_empty(), Button::new("Clear")).clicked() {
+                let has_any = !model.timing.tracks().is_empty();
+                if !is_narrow && ui.add_enabled(has_any, Button::new("Clear")).clicked() {
                     model.timing.clear();
                 }
             }
@@ -99,7 +109,9 @@ fn head(ui: &mut Ui, model: &mut Model, seen: &Seen) {
                 model.stop_measuring();
                 model.settings.timing = false;
             }
-            ui.add(Label::new(RichText::new(format!("clock: {}", seen.clock)).weak()).truncate());
+            if !is_narrow {
+                ui.add(Label::new(RichText::new(format!("clock: {}", seen.clock)).weak()).truncate());
+            }
         });
     });
 }
@@ -114,7 +126,11 @@ fn plot(ui: &mut Ui, tracks: &[Track]) {
     // Few frames fill the plot as many do.
     let most = tracks.iter().map(|track| track.frames.len()).max().unwrap_or(0).max(ENOUGH);
     let caption = 16.0;
-    let legend = Legend::default().position(Corner::LeftTop).background_alpha(0.8).text_style(TextStyle::Small).follow_insertion_order(true);
+    let legend = Legend::default()
+        .position(Corner::LeftTop)
+        .background_alpha(0.8)
+        .text_style(TextStyle::Small)
+        .follow_insertion_order(true);
     let plot = Plot::new("frame times")
         .legend(legend)
         .height(ui.available_height() - caption - ui.spacing().item_spacing.y)
@@ -160,12 +176,16 @@ fn ticks(highest: f64) -> Vec<GridMark> {
         return Vec::new();
     }
     let power = 10f64.powf((highest / 4.0).log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].map(|n| n * power).into_iter().find(|s| highest / s <= 4.5).unwrap_or(highest);
-    (0..5).map(|k| GridMark { value: f64::from(k) * step, step_size: step }).filter(|m| m.value <= highest).collect()
+    let step =
+        [1.0, 2.0, 5.0, 10.0].map(|n| n * power).into_iter().find(|s| highest / s <= 4.5).unwrap_or(highest);
+    (0..5)
+        .map(|k| GridMark { value: f64::from(k) * step, step_size: step })
+        .filter(|m| m.value <= highest)
+        .collect()
 }
 
 /// Right edges of the columns with numbers, points.
-const EDGES: [f32; 4] = [152.0, 212.0, 267.0, WORDS - 14.0];
+const EDGES: [f32; 4] = [150.0, 206.0, 259.0, WORDS - 14.0];
 /// How high a line of the table is, points.
 const ROW: f32 = 19.0;
 
@@ -183,7 +203,9 @@ fn table(ui: &mut Ui, model: &Model) {
         let (weak, text) = (ui.visuals().weak_text_color(), ui.visuals().text_color());
         let head = ["plain", "shadows", "ratio", "frames"].map(|title| (title.to_owned(), weak));
         let response = line(ui, ("median, ms", weak), head, false);
-        response.on_hover_text("of the frame without shadows and with them, their ratio, and how many were measured");
+        response.on_hover_text(
+            "of the frame without shadows and with them, their ratio, and how many were measured",
+        );
         for (k, (i, track, [plain, shadows])) in tracks.into_iter().enumerate() {
             let (way, frames, ratio) = (track.way.to_string(), track.frames.len(), ratio(plain, shadows));
             let cells = [
@@ -193,7 +215,9 @@ fn table(ui: &mut Ui, model: &Model) {
                 (frames.to_string(), weak),
             ];
             let response = line(ui, (&way, color(i)), cells, k % 2 == 0);
-            let said = format!("{way}: {plain:.2} ms without shadows, {shadows:.2} ms with them, {ratio}, {frames} frames");
+            let said = format!(
+                "{way}: {plain:.2} ms without shadows, {shadows:.2} ms with them, {ratio}, {frames} frames"
+            );
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &said));
             response.on_hover_text(said);
         }
@@ -239,6 +263,9 @@ mod tests {
         let values = |highest| ticks(highest).iter().map(|mark| mark.value).collect::<Vec<_>>();
         assert_eq!(values(150.0), [0.0, 50.0, 100.0, 150.0], "of many milliseconds");
         assert_eq!(values(0.9), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8], "of few");
-        assert!(values(f64::NAN).is_empty() && values(0.0).is_empty() && values(f64::MAX).len() <= 5, "of none");
+        assert!(
+            values(f64::NAN).is_empty() && values(0.0).is_empty() && values(f64::MAX).len() <= 5,
+            "of none"
+        );
     }
 }
