@@ -4,7 +4,6 @@ use std::io::Write;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use antumbra::glam::DVec2;
 use antumbra_scene::Scene;
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
@@ -12,6 +11,8 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, Window, WindowId};
 
+use crate::canvas::lines::Stroke;
+use crate::canvas::map_view::MapPicture;
 use crate::canvas::{Canvas, Side, View};
 use crate::gl_window::GlWindow;
 use crate::model::document::Document;
@@ -19,7 +20,8 @@ use crate::model::settings::{Antialiasing, Settings};
 use crate::model::{Model, Request};
 use crate::reference::Refinement;
 use crate::remembered::Remembered;
-use crate::ui::{self, Seen};
+use crate::ui::teaching::Lesson;
+use crate::ui::{self, MapImage, Seen};
 use crate::{Options, ViewerError, report};
 
 /// What wakes the loop from outside.
@@ -41,6 +43,9 @@ pub(crate) fn run(options: Options) -> Result<(), ViewerError> {
     let events = EventLoop::<Wake>::with_user_event()
         .build()
         .map_err(|error| ViewerError::NoDisplay(error.to_string()))?;
+    if options.json {
+        put(&report::keys())?;
+    }
     let proxy = events.create_proxy();
     let size = options.size.or(remembered.size).unwrap_or([1280, 800]);
     let mut app = App {
@@ -68,8 +73,8 @@ fn model(options: &Options, remembered: &Remembered) -> Result<Model, ViewerErro
     if let Some(path) = &options.scene {
         return Ok(Model::new(Document::load(path)?, settings, options.gallery.clone()));
     }
-    let first = options.gallery.first();
-    let document = match first {
+    let named = options.gallery.iter().find(|entry| Some(entry.name) == options.first.as_deref());
+    let document = match named.or(options.gallery.first()) {
         Some(entry) => entry.document()?,
         None => return Err(ViewerError::Option("there is no gallery; give a scene file".into())),
     };
@@ -117,6 +122,10 @@ struct Running {
     vsync: bool,
     hidden: bool,
     printed: Option<String>,
+    /// The interface's name of the picture of maps.
+    map_id: Option<egui::TextureId>,
+    /// Frames drawn so far.
+    frames: u64,
 }
 
 /// How long after a change more samples are worth their time.
@@ -175,6 +184,8 @@ impl App {
             vsync: self.model.settings.vsync,
             hidden: false,
             printed: None,
+            map_id: None,
+            frames: 0,
         })
     }
 
@@ -330,6 +341,7 @@ impl Running {
         self.painter.paint_and_update_textures(size, scale, &primitives, &mut textures);
         self.window.window.pre_present_notify();
         self.window.swap()?;
+        self.frames += 1;
         if sides != self.seen.sides {
             // What is said of a picture is said in the frame after it.
             self.seen.sides = sides;
@@ -350,7 +362,13 @@ impl Running {
     }
 
     /// The scene in the window's framebuffer.
-    fn draw(&mut self, model: &Model, rect: [i32; 4], scale: f32, size: [u32; 2]) -> Result<[Side; 2], ViewerError> {
+    fn draw(
+        &mut self,
+        model: &Model,
+        rect: [i32; 4],
+        scale: f32,
+        size: [u32; 2],
+    ) -> Result<[Side; 2], ViewerError> {
         let now = self.last_frame;
         let shown = (model.scene().clone(), model.clock.time, [rect[2], rect[3]]);
         let same = self.last_shown.as_ref().is_some_and(|(scene, time, size)| {
@@ -367,7 +385,7 @@ impl Running {
         } else {
             self.refinement.rest();
         }
-        let strokes = ui::overlay::strokes(model, DVec2::new(f64::from(rect[2]), f64::from(rect[3])));
+        let strokes = self.strokes(model)?;
         let samples = self.samples(model, still);
         let view = View {
             scene: model.scene(),
@@ -382,18 +400,51 @@ impl Running {
             measure: model.settings.timing,
             redraw: self.seen.wants_frame(model),
         };
-        self.painter.clear(size, [0.0, 0.0, 0.0, 1.0]);
+        let map = match model.settings.teaching.map && rect[2] > 0 && rect[3] > 0 {
+            true => self.canvas.map(&view, model.light)?,
+            false => None,
+        };
+        self.canvas.clear(size);
         let start = Instant::now();
         let sides = self.canvas.draw(&view)?;
         self.seen.traced = view.traced.map(|t| (t.samples, t.target, t.stale));
         if !still {
             self.last_cost = start.elapsed();
         }
+        self.show_map(map);
         self.seen.frame(model, &sides, still);
         if still && self.seen.wants_error(model) {
             self.seen.error = self.canvas.error(model.scene().image.exposure as f32);
         }
         Ok(sides)
+    }
+
+    /// Lines over the picture: marks, and what teaches.
+    fn strokes(&mut self, model: &Model) -> Result<Vec<Stroke>, ViewerError> {
+        let mut strokes = ui::overlay::strokes(model);
+        if Lesson::is_empty(&model.settings.teaching) {
+            self.seen.lesson.clear();
+        } else if !self.seen.lesson.is_current(model) {
+            let setting = self.canvas.describe(model.scene(), model.clock.time)?;
+            self.seen.lesson.learn(model, setting.moment(), &setting.described);
+            // The legend and the numbers are shown in the frame after.
+            self.window.window.request_redraw();
+        }
+        strokes.extend(self.seen.lesson.strokes.iter().cloned());
+        Ok(strokes)
+    }
+
+    /// Gives the interface the picture of a map.
+    fn show_map(&mut self, map: Option<MapPicture>) {
+        let before = self.seen.map.take();
+        self.seen.map = map.map(|map| {
+            // The texture stays the same for as long as there is a canvas.
+            let id = *self.map_id.get_or_insert_with(|| self.painter.register_native_texture(map.texture));
+            MapImage { id, size: map.size, caption: map.caption }
+        });
+        if before != self.seen.map {
+            self.window.window.request_redraw();
+        }
     }
 
     /// Samples a pixel.
@@ -407,7 +458,13 @@ impl Running {
             Antialiasing::Auto if self.canvas.info().software => {
                 if still && self.last_cost < Duration::from_millis(150) { 4.min(most) } else { 1 }
             }
-            Antialiasing::Auto => if still { 8.min(most) } else { 4.min(most) },
+            Antialiasing::Auto => {
+                if still {
+                    8.min(most)
+                } else {
+                    4.min(most)
+                }
+            }
         }
     }
 
@@ -426,7 +483,10 @@ impl Running {
 
     /// Writes what the picture shows.
     fn screenshot(&mut self, model: &Model, path: &std::path::Path) -> Result<(), String> {
-        let Some((_, _, size)) = &self.last_shown else { return Err("nothing was drawn yet".into()) };
+        let Some(size) = self.last_shown.as_ref().map(|shown| shown.2) else {
+            return Err("nothing was drawn yet".into());
+        };
+        let strokes = self.strokes(model).map_err(|error| error.to_string())?;
         let view = View {
             scene: model.scene(),
             time: model.clock.time,
@@ -434,7 +494,7 @@ impl Running {
             components: &model.components,
             rect: [0, 0, size[0], size[1]],
             samples: self.samples(model, true),
-            strokes: &ui::overlay::strokes(model, DVec2::new(f64::from(size[0]), f64::from(size[1]))),
+            strokes: &strokes,
             scale: self.context.pixels_per_point(),
             traced: if model.needs_reference() { self.refinement.latest() } else { None },
             measure: false,
@@ -445,22 +505,37 @@ impl Running {
     }
 
     /// Prints the state if it is not what was printed last.
-    fn print(&mut self, model: &Model, rect: [i32; 4], size: [u32; 2], scale: f32) -> Result<(), ViewerError> {
+    fn print(
+        &mut self,
+        model: &Model,
+        rect: [i32; 4],
+        size: [u32; 2],
+        scale: f32,
+    ) -> Result<(), ViewerError> {
         let top = size[1] as i32 - rect[1] - rect[3];
-        let state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
+        let mut state = report::state(model, &self.seen, [rect[0], top, rect[2], rect[3]], size, scale);
+        state["fullscreen"] = self.window.window.fullscreen().is_some().into();
+        state["input"] = self.context.input(report::input);
         let line = state.to_string();
         if self.printed.as_ref() == Some(&line) {
             return Ok(());
         }
-        let mut out = std::io::stdout().lock();
-        writeln!(out, "{line}").and_then(|()| out.flush()).map_err(ViewerError::Stdout)?;
         self.printed = Some(line);
-        Ok(())
+        // A frame that looks like the one before is not worth a line.
+        state["frames"] = self.frames.into();
+        put(&state)
     }
+}
+
+/// Writes a line.
+fn put(line: &serde_json::Value) -> Result<(), ViewerError> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{line}").and_then(|()| out.flush()).map_err(ViewerError::Stdout)
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
+        // It deletes the picture of maps as well, which it was told of; that the canvas does so again does no harm.
         self.painter.destroy();
     }
 }
@@ -468,7 +543,9 @@ impl Drop for Running {
 /// A rectangle of the interface in pixels from the bottom left of a window of this size.
 fn pixels(rect: egui::Rect, scale: f32, size: [u32; 2]) -> [i32; 4] {
     let [w, h] = size.map(|side| side as f32);
-    let (left, right) = ((rect.left() * scale).round().clamp(0.0, w), (rect.right() * scale).round().clamp(0.0, w));
-    let (top, bottom) = ((rect.top() * scale).round().clamp(0.0, h), (rect.bottom() * scale).round().clamp(0.0, h));
+    let (left, right) =
+        ((rect.left() * scale).round().clamp(0.0, w), (rect.right() * scale).round().clamp(0.0, w));
+    let (top, bottom) =
+        ((rect.top() * scale).round().clamp(0.0, h), (rect.bottom() * scale).round().clamp(0.0, h));
     [left, h - bottom, right - left, bottom - top].map(|x| x.max(0.0) as i32)
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use antumbra_host::HostError;
 use glutin::config::{Config, ConfigTemplateBuilder, GlConfig as _};
 use glutin::context::{
-    ContextApi, ContextAttributesBuilder, GlProfile, NotCurrentContext, NotCurrentGlContext as _, PossiblyCurrentContext,
-    PossiblyCurrentGlContext as _, Version,
+    ContextApi, ContextAttributesBuilder, GlProfile, NotCurrentContext, NotCurrentGlContext as _,
+    PossiblyCurrentContext, PossiblyCurrentGlContext as _, Version,
 };
 use glutin::display::{GetGlDisplay as _, GlDisplay as _};
 use glutin::surface::{GlSurface as _, Surface, SwapInterval, WindowSurface};
@@ -65,11 +65,14 @@ impl GlWindow {
     }
 
     fn context(config: &Config, window: &Window) -> Result<NotCurrentContext, ViewerError> {
-        let handle = window.window_handle().map_err(|error| ViewerError::NoDisplay(error.to_string()))?.as_raw();
+        let handle =
+            window.window_handle().map_err(|error| ViewerError::NoDisplay(error.to_string()))?.as_raw();
         let mut answers = Vec::new();
         for api in APIS {
-            let attributes =
-                ContextAttributesBuilder::new().with_profile(GlProfile::Core).with_context_api(api).build(Some(handle));
+            let attributes = ContextAttributesBuilder::new()
+                .with_profile(GlProfile::Core)
+                .with_context_api(api)
+                .build(Some(handle));
             // SAFETY: the handle is that of a window that lives as long as the context.
             match unsafe { config.display().create_context(config, &attributes) } {
                 Ok(context) => return Ok(context),

@@ -13,6 +13,7 @@ mod reference;
 mod remembered;
 mod report;
 mod screenshot;
+mod teach;
 mod ui;
 
 pub use error::ViewerError;
@@ -26,17 +27,19 @@ use model::document::{Document, Source};
 /// What to start with.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The scene file; without one, what was looked at last, or else the first of the gallery.
+    /// The scene file; without one, what was looked at last, or else one of the gallery.
     pub scene: Option<PathBuf>,
     /// Scenes that need no file.
     pub gallery: Vec<GalleryScene>,
+    /// The name of the one that the first start shows; else it is the gallery's first.
+    pub first: Option<String>,
     /// How shadows are found, as on the command line: `map:size=512`, `analytic+samples:16`, `raytraced`, `none`.
     pub technique: Option<String>,
     /// Size of the window, in points of the interface.
     pub size: Option<[u32; 2]>,
     /// Whether to forget what was remembered.
     pub fresh: bool,
-    /// Whether to print the state as a line of JSON on standard output whenever it changes.
+    /// Whether to print lines of JSON on standard output: the keys, then the state whenever it changes.
     pub json: bool,
 }
 
@@ -69,5 +72,7 @@ pub fn display_available() -> bool {
     if cfg!(any(windows, target_os = "macos")) {
         return true;
     }
-    ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"].iter().any(|name| std::env::var_os(name).is_some_and(|v| !v.is_empty()))
+    ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"]
+        .iter()
+        .any(|name| std::env::var_os(name).is_some_and(|v| !v.is_empty()))
 }

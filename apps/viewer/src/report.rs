@@ -5,6 +5,7 @@ use egui::accesskit::{NodeId, Rect, TreeUpdate};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::model::command;
 use crate::model::pick::Item;
 use crate::model::{Model, Side as Component};
 use crate::ui::Seen;
@@ -41,6 +42,29 @@ pub(crate) fn controls(update: &TreeUpdate, scale: f64) -> Vec<Control> {
     update.nodes.iter().filter_map(|(_, node)| control(node)).collect()
 }
 
+/// The keys and what they do, printed once at the start.
+pub(crate) fn keys() -> Value {
+    let keys: Vec<Value> = command::GROUPS
+        .iter()
+        .flat_map(|group| group.bindings.iter().map(|b| json!([group.title, b.text(), b.help])))
+        .collect();
+    json!({ "keys": keys })
+}
+
+/// What pointer and keyboard were when the frame was made.
+pub(crate) fn input(input: &egui::InputState) -> Value {
+    let pointer = input.pointer.latest_pos().map(|at| (at * input.pixels_per_point).to_vec2());
+    json!({
+        "pointer": pointer.map(|at| [at.x, at.y]),
+        "primary": input.pointer.primary_down(),
+        "secondary": input.pointer.secondary_down(),
+        "middle": input.pointer.middle_down(),
+        "shift": input.modifiers.shift,
+        "ctrl": input.modifiers.command,
+        "focused": input.focused,
+    })
+}
+
 /// The state of the program.
 pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2], scale: f32) -> Value {
     let scene = model.scene();
@@ -70,8 +94,10 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         .iter()
         .enumerate()
         .map(|(i, object)| {
-            let here = moment.primitives.iter().find(|p| p.object == i).map(|p| p.pose.translation.to_array());
-            json!({ "name": object.name, "position": here, "parts": object.parts.len() })
+            let here =
+                moment.primitives.iter().find(|p| p.object == i).map(|p| p.pose.translation.to_array());
+            let shapes: Vec<&str> = object.parts.iter().map(|part| part.shape.type_name()).collect();
+            json!({ "name": object.name, "position": here, "shapes": shapes })
         })
         .collect();
     let chosen = model.chosen.map(|item| match item {
@@ -90,8 +116,13 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         .map(|side| {
             json!({
                 "objection": side.objection,
-                "pairs": side.stats.map(|s| s.pairs),
-                "polygons": side.stats.map(|s| s.polygons),
+                "stats": side.stats.map(|s| json!({
+                    "pairs": s.pairs,
+                    "drawn_pairs": s.drawn_pairs,
+                    "polygons": s.polygons,
+                    "tiles": s.tiles,
+                    "touched_tiles": s.touched_tiles,
+                })),
             })
         })
         .collect();
@@ -135,6 +166,12 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         "still": seen.still,
         "traced": seen.traced.map(|(samples, target, stale)| json!([samples, target, stale])),
         "error": seen.error,
+        "lesson": {
+            "lines": seen.lesson.strokes.len(),
+            "facts": seen.lesson.facts.iter().map(|f| json!({ "title": f.title, "lines": f.lines })).collect::<Vec<_>>(),
+            "notes": seen.lesson.notes,
+            "map": seen.map.as_ref().map(|map| json!({ "caption": map.caption, "size": map.size })),
+        },
         "timing": timing,
         "measuring": model.timing.measuring().map(|(way, ..)| way.to_string()),
         "controls": seen.controls,

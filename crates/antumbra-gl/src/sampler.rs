@@ -4,7 +4,7 @@ use crate::frame::Frame;
 use crate::resources::{Target, TargetFormat, UploadRing};
 use crate::samples::{Pattern, push_points};
 use crate::scenery::{Area, Light};
-use crate::shader::{COVERAGE, Program, ProgramSet, ProgramSource, SURFACE, Variant};
+use crate::shader::{COVERAGE, MASKS, Program, ProgramSet, ProgramSource, SURFACE, Variant};
 use crate::state::{Blend, set_color_mask};
 use crate::surface::{bind_texture, set_surface};
 use crate::technique::composite::push_components;
@@ -18,7 +18,7 @@ use glow::HasContext;
 /// GLSL of a point's weight.
 pub(crate) const SAMPLES: &str = include_str!("shaders/samples.glsl");
 
-const SUM: &[&str] = &[COVERAGE, SURFACE, SAMPLES, include_str!("shaders/samples.frag.glsl")];
+const SUM: &[&str] = &[COVERAGE, SURFACE, MASKS, SAMPLES, include_str!("shaders/samples.frag.glsl")];
 const POINTS: &[&str] = &["u_points", "u_point_count", "u_center", "u_emitter"];
 
 /// In the order of [`TAKEN`], [`SENT`] and [`AVERAGE`].

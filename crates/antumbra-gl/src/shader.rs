@@ -64,6 +64,8 @@ pub(crate) const SURFACE: &str = include_str!("shaders/surface.glsl");
 const SCREEN: &str = include_str!("shaders/screen.vert.glsl");
 /// Lights with an area as a point sees them.
 pub(crate) const AREA: &str = include_str!("shaders/area.glsl");
+/// What a batch's masks say of a pixel; needs [`SURFACE`].
+pub(crate) const MASKS: &str = include_str!("shaders/masks.glsl");
 const LIGHTS: &str = include_str!("shaders/lights.glsl");
 const IRRADIANCE: &str = include_str!("shaders/irradiance.frag.glsl");
 const RATIO: &str = include_str!("shaders/ratio.frag.glsl");
@@ -126,7 +128,7 @@ pub(crate) const OVERLAY_PROGRAMS: [ProgramSource; 10] = [
 ];
 
 /// The parts of a pass that sums over lights.
-const SUMS: &[&str] = &[COVERAGE, SURFACE, AREA, LIGHTS, IRRADIANCE];
+const SUMS: &[&str] = &[COVERAGE, SURFACE, MASKS, AREA, LIGHTS, IRRADIANCE];
 
 /// The passes of the overlay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

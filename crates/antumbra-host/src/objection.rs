@@ -4,7 +4,7 @@ use crate::HostError;
 use crate::describe::{Described, describe};
 use antumbra::technique::Part;
 use antumbra::{Soft, Technique};
-use antumbra_scene::{Moment, Scene, Shape};
+use antumbra_scene::{Moment, Scene};
 
 /// What a technique cannot do of a scene: names the object, and what can. `None` if it can do it.
 ///
@@ -43,7 +43,8 @@ pub(crate) fn objection_to<'a>(
         Part::Occluder(i) => named(described.occluders[i].id),
         Part::Mesh(i) => {
             let id = described.meshes[i].id;
-            if let Some(kind) = owner(id).map(|primitive| kind_of(&primitive.shape)).filter(|k| *k != "mesh")
+            if let Some(kind) =
+                owner(id).map(|primitive| primitive.shape.type_name()).filter(|k| *k != "mesh")
             {
                 what += &format!(", and this {kind} is drawn as one");
             }
@@ -55,27 +56,7 @@ pub(crate) fn objection_to<'a>(
     let able = Technique::all().filter(|other| soft.refusal(other, &scenery).is_none());
     let mut names: Vec<&str> = able.map(|other| other.name()).collect();
     names.push("raytraced");
-    let mut instead = format!("use --technique {}", names.join(" or "));
     let sampled = Soft::samples(16);
-    if soft == Soft::Native && sampled.refusal(technique, &scenery).is_none() {
-        instead += &format!(", or --soft {sampled}");
-    }
-    Some(HostError::Unsupported { object, what, instead })
-}
-
-fn kind_of(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Plane => "plane",
-        Shape::Rectangle { .. } => "rectangle",
-        Shape::Disc { .. } => "disc",
-        Shape::Triangle { .. } => "triangle",
-        Shape::Sphere { .. } => "sphere",
-        Shape::Ellipsoid { .. } => "ellipsoid",
-        Shape::Cone { .. } => "cone",
-        Shape::Cylinder { .. } => "cylinder",
-        Shape::Capsule { .. } => "capsule",
-        Shape::Box { .. } => "box",
-        Shape::Torus { .. } => "torus",
-        Shape::Mesh(_) => "mesh",
-    }
+    let samples = soft == Soft::Native && sampled.refusal(technique, &scenery).is_none();
+    Some(HostError::Unsupported { object, what, able: names, sampled: samples.then_some(sampled) })
 }

@@ -9,6 +9,7 @@ use crate::setting::Setting;
 use crate::state;
 use crate::targets::{ColorFormat, Targets};
 use antumbra::glam::{DMat4, DVec3, Mat3, Vec3};
+use antumbra::technique::map::DepthMap;
 use antumbra::{DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Soft, Surface, Technique};
 use antumbra_scene::{Primitive, Scene};
 use glow::HasContext;
@@ -309,6 +310,18 @@ impl Stage {
             }
         };
         Some(Picture { texture, framebuffer, width: width as u32, height: height as u32 })
+    }
+
+    /// The shadow map of one of the setting's lights, for what [`Self::draw`] has drawn: see
+    /// [`antumbra::Renderer::depth_map`].
+    ///
+    /// # Errors
+    /// [`HostError::Shadows`].
+    pub fn depth_map(&mut self, setting: &Setting, light: usize) -> Result<Option<DepthMap>, HostError> {
+        match self.frame(setting) {
+            Some(frame) => Ok(self.shadows.depth_map(&frame, light)?),
+            None => Ok(None),
+        }
     }
 
     /// Adds shadows to what [`Self::draw`] has drawn.

@@ -112,6 +112,20 @@ pub enum LightKind {
     },
 }
 
+impl LightKind {
+    /// Its `type` in a scene file.
+    pub fn type_name(&self) -> &'static str {
+        match self {
+            Self::Point => "point",
+            Self::Directional { .. } => "directional",
+            Self::Spot { .. } => "spot",
+            Self::Sphere { .. } => "sphere",
+            Self::Disc { .. } => "disc",
+            Self::Rectangle { .. } => "rectangle",
+        }
+    }
+}
+
 /// An object: one shape or several parts moved as one, and how it looks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
@@ -238,6 +252,26 @@ pub enum Shape {
     },
     /// Triangles from a file.
     Mesh(std::sync::Arc<Mesh>),
+}
+
+impl Shape {
+    /// Its `type` in a scene file.
+    pub fn type_name(&self) -> &'static str {
+        match self {
+            Self::Plane => "plane",
+            Self::Rectangle { .. } => "rectangle",
+            Self::Disc { .. } => "disc",
+            Self::Triangle { .. } => "triangle",
+            Self::Sphere { .. } => "sphere",
+            Self::Ellipsoid { .. } => "ellipsoid",
+            Self::Cone { .. } => "cone",
+            Self::Cylinder { .. } => "cylinder",
+            Self::Capsule { .. } => "capsule",
+            Self::Box { .. } => "box",
+            Self::Torus { .. } => "torus",
+            Self::Mesh(_) => "mesh",
+        }
+    }
 }
 
 /// An indexed triangle mesh. It has at least one triangle, and none without area.

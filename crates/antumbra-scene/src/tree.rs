@@ -111,29 +111,30 @@ fn light(light: &Light) -> Node {
     let position = || required("position", vector(light.position));
     let toward = |direction: DVec3| required("direction", vector(unit(direction)));
     let length = |key: &'static str, length: f64| required(key, number(length));
-    let (kind, own) = match light.kind {
-        LightKind::Point => ("point", vec![position()]),
-        LightKind::Directional { direction } => ("directional", vec![toward(direction)]),
+    let own = match light.kind {
+        LightKind::Point => vec![position()],
+        LightKind::Directional { direction } => vec![toward(direction)],
         LightKind::Spot { direction, inner_angle, outer_angle } => {
             let inner = optional("inner_angle", number(degrees(inner_angle)), &number(0.0));
             let outer = optional("outer_angle", number(degrees(outer_angle)), &number(45.0));
-            ("spot", vec![position(), toward(direction), inner, outer])
+            vec![position(), toward(direction), inner, outer]
         }
-        LightKind::Sphere { radius } => ("sphere", vec![position(), length("radius", radius)]),
+        LightKind::Sphere { radius } => vec![position(), length("radius", radius)],
         LightKind::Disc { direction, radius } => {
-            ("disc", vec![position(), toward(direction), length("radius", radius)])
+            vec![position(), toward(direction), length("radius", radius)]
         }
         LightKind::Rectangle { direction, right, width, height } => {
             let right = required("right", vector(perpendicular(right, unit(direction))));
             let (width, height) = (length("width", width), length("height", height));
-            ("rectangle", vec![position(), toward(direction), right, width, height])
+            vec![position(), toward(direction), right, width, height]
         }
     };
-    let mut entries = vec![required("name", text(&light.name)), required("type", text(kind))];
+    let mut entries =
+        vec![required("name", text(&light.name)), required("type", text(light.kind.type_name()))];
     entries.extend(own);
     entries.push(optional("color", vector(light.color), &vector(DVec3::ONE)));
     entries.push(required("intensity", number(light.intensity)));
-    if kind != "directional" {
+    if !matches!(light.kind, LightKind::Directional { .. }) {
         entries.extend(light.motion.as_ref().map(motion));
     }
     Node::Table(entries)
@@ -184,29 +185,27 @@ fn shape(shape: &Shape, path: &dyn Fn(&str) -> String) -> Node {
     let lengths = |list: &[(&'static str, f64)]| -> Vec<Entry> {
         list.iter().map(|(key, length)| required(key, number(*length))).collect()
     };
-    let (kind, own) = match shape {
-        Shape::Plane => ("plane", Vec::new()),
-        Shape::Rectangle { width, depth } => ("rectangle", lengths(&[("width", *width), ("depth", *depth)])),
-        Shape::Disc { radius } => ("disc", lengths(&[("radius", *radius)])),
-        Shape::Triangle { vertices } => ("triangle", vec![required("vertices", vectors(vertices))]),
-        Shape::Sphere { radius } => ("sphere", lengths(&[("radius", *radius)])),
-        Shape::Ellipsoid { radii } => ("ellipsoid", vec![required("radii", vector(*radii))]),
-        Shape::Cone { radius, height } => ("cone", lengths(&[("radius", *radius), ("height", *height)])),
+    let own = match shape {
+        Shape::Plane => Vec::new(),
+        Shape::Rectangle { width, depth } => lengths(&[("width", *width), ("depth", *depth)]),
+        Shape::Disc { radius } => lengths(&[("radius", *radius)]),
+        Shape::Triangle { vertices } => vec![required("vertices", vectors(vertices))],
+        Shape::Sphere { radius } => lengths(&[("radius", *radius)]),
+        Shape::Ellipsoid { radii } => vec![required("radii", vector(*radii))],
+        Shape::Cone { radius, height } => lengths(&[("radius", *radius), ("height", *height)]),
         Shape::Cylinder { radius, height, radius_top } => {
             let mut own = lengths(&[("radius", *radius), ("height", *height)]);
             own.push(optional("radius_top", number(*radius_top), &number(*radius)));
-            ("cylinder", own)
+            own
         }
-        Shape::Capsule { radius, height } => {
-            ("capsule", lengths(&[("radius", *radius), ("height", *height)]))
-        }
-        Shape::Box { size } => ("box", vec![required("size", vector(*size))]),
+        Shape::Capsule { radius, height } => lengths(&[("radius", *radius), ("height", *height)]),
+        Shape::Box { size } => vec![required("size", vector(*size))],
         Shape::Torus { major_radius, minor_radius } => {
-            ("torus", lengths(&[("major_radius", *major_radius), ("minor_radius", *minor_radius)]))
+            lengths(&[("major_radius", *major_radius), ("minor_radius", *minor_radius)])
         }
-        Shape::Mesh(mesh) => ("mesh", vec![required("path", text(&path(&mesh.path)))]),
+        Shape::Mesh(mesh) => vec![required("path", text(&path(&mesh.path)))],
     };
-    let mut entries = vec![required("type", text(kind))];
+    let mut entries = vec![required("type", text(shape.type_name()))];
     entries.extend(own);
     Node::Table(entries)
 }

@@ -49,8 +49,7 @@ impl Compose {
     /// The context is current.
     pub(crate) unsafe fn new(gl: &glow::Context) -> Result<Self, HostError> {
         let program = include_str!("shaders/screen.vert.glsl");
-        let bytes: Vec<u8> =
-            (0..COLORS).flat_map(|i| error_color(i as f32 / (COLORS - 1) as f32)).collect();
+        let bytes: Vec<u8> = (0..COLORS).flat_map(|i| error_color(i as f32 / (COLORS - 1) as f32)).collect();
         // SAFETY: the caller's; the bytes are as many as the texture has.
         unsafe {
             let program = Program::new(gl, program, include_str!("shaders/compose.frag.glsl"))?;
@@ -60,7 +59,17 @@ impl Compose {
             gl.pixel_store_i32(glow::UNPACK_ALIGNMENT, 1);
             let data = glow::PixelUnpackData::Slice(Some(&bytes));
             let width = COLORS as i32;
-            gl.tex_image_2d(glow::TEXTURE_2D, 0, glow::RGB8 as i32, width, 1, 0, glow::RGB, glow::UNSIGNED_BYTE, data);
+            gl.tex_image_2d(
+                glow::TEXTURE_2D,
+                0,
+                glow::RGB8 as i32,
+                width,
+                1,
+                0,
+                glow::RGB,
+                glow::UNSIGNED_BYTE,
+                data,
+            );
             gl.pixel_store_i32(glow::UNPACK_ALIGNMENT, 4);
             for name in [glow::TEXTURE_MIN_FILTER, glow::TEXTURE_MAG_FILTER] {
                 gl.tex_parameter_i32(glow::TEXTURE_2D, name, glow::LINEAR as i32);
@@ -81,7 +90,9 @@ impl Compose {
             gl.viewport(x, y, w, h);
             gl.use_program(Some(self.program.raw));
             let textures = [what.textures[0], what.textures[1], self.colors];
-            for (unit, (name, texture)) in (0..).zip(["u_left", "u_right", "u_colors"].into_iter().zip(textures)) {
+            for (unit, (name, texture)) in
+                (0..).zip(["u_left", "u_right", "u_colors"].into_iter().zip(textures))
+            {
                 gl.active_texture(glow::TEXTURE0 + unit);
                 gl.bind_texture(glow::TEXTURE_2D, Some(texture));
                 gl.bind_sampler(unit, None);

@@ -167,7 +167,9 @@ fn push_stroke(vertices: &mut Vec<Vertex>, stroke: &Stroke, place: &Place<'_>) {
     let half = f64::from(0.5 * stroke.width * place.scale);
     let mut along = 0.0;
     for i in 0..(points.len() + closing).saturating_sub(1) {
-        let Some([a, b]) = in_front(points[i], points[(i + 1) % points.len()], place.setting.near()) else { continue };
+        let Some([a, b]) = in_front(points[i], points[(i + 1) % points.len()], place.setting.near()) else {
+            continue;
+        };
         let seen = |p: DVec3| Seen { at: p.truncate() / -p.z * pixels, inverse: -1.0 / p.z };
         let (a, b) = (seen(a), seen(b));
         // Far outside the picture there is nothing to see, and numbers grow.

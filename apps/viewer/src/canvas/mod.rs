@@ -2,6 +2,7 @@
 
 pub(crate) mod compose;
 pub(crate) mod lines;
+pub(crate) mod map_view;
 mod picture;
 mod program;
 
@@ -13,11 +14,12 @@ use antumbra_host::{Buffers, ColorFormat, ContextInfo, FrameTimer, HostError, Se
 use antumbra_scene::Scene;
 use glow::HasContext;
 
-use crate::model::settings::{Layout, Settings};
+use crate::model::settings::Settings;
 use crate::model::way::Way;
 use crate::reference::Traced;
 use compose::{Compose, Composition};
 use lines::{Lines, Place, Stroke};
+use map_view::{MapPicture, MapView};
 use picture::Picture;
 
 /// What one frame shows.
@@ -101,9 +103,10 @@ pub(crate) struct Canvas {
     info: ContextInfo,
     compose: Compose,
     lines: Lines,
+    map_view: MapView,
     slots: [Slot; 2],
     /// What the stage's depth is of.
-    depth: Option<(Arc<Scene>, f64, [i32; 2], u32)>,
+    depth: Option<(Arc<Scene>, f64, [i32; 2])>,
 }
 
 /// How dark a picture is whose way cannot show the scene.
@@ -120,7 +123,9 @@ impl Canvas {
         let timer = FrameTimer::new(gl, &info)?;
         // SAFETY: the context is current on this thread.
         let (compose, lines) = unsafe { (Compose::new(gl)?, Lines::new(gl)?) };
-        Ok(Self { gl: gl.clone(), stage, timer, info, compose, lines, slots: Default::default(), depth: None })
+        let gl = gl.clone();
+        let (slots, map_view) = Default::default();
+        Ok(Self { gl, stage, timer, info, compose, lines, map_view, slots, depth: None })
     }
 
     /// What the driver says of itself.
@@ -138,6 +143,13 @@ impl Canvas {
         self.timer.name()
     }
 
+    /// Makes the whole window black.
+    pub(crate) fn clear(&self, size: [u32; 2]) {
+        // SAFETY: the context is current.
+        unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, None) };
+        egui_glow::painter::clear(&self.gl, size, [0.0, 0.0, 0.0, 1.0]);
+    }
+
     /// Draws a frame into the window's framebuffer; what became of the first side, and of the second if there is one.
     ///
     /// # Errors
@@ -152,7 +164,8 @@ impl Canvas {
         // The same way twice is drawn once.
         let twice = ways.len() == 2 && ways[0] == ways[1];
         for (i, side) in [&mut first, &mut second].into_iter().take(ways.len()).enumerate() {
-            *side = if i == 1 && twice { self.slots[0].side.clone() } else { self.draw_side(i, ways[i], view)? };
+            *side =
+                if i == 1 && twice { self.slots[0].side.clone() } else { self.draw_side(i, ways[i], view)? };
         }
         let both = if twice || ways.len() == 1 { [0, 0] } else { [0, 1] };
         let textures = both.map(|i| self.slots[i].picture.as_ref().map(|p| p.texture));
@@ -215,13 +228,19 @@ impl Canvas {
     }
 
     /// Draws the host's picture and the shadows of one way into a side's picture.
-    fn draw_way(&mut self, index: usize, way: Way, view: &View<'_>, size: [i32; 2]) -> Result<Side, HostError> {
+    fn draw_way(
+        &mut self,
+        index: usize,
+        way: Way,
+        view: &View<'_>,
+        size: [i32; 2],
+    ) -> Result<Side, HostError> {
         let setting = self.setting(view)?;
         let mut side = Side { fresh: true, ..Side::default() };
         let technique = match way {
             Way::Technique(technique, soft) => match setting.objection(&technique, soft) {
                 Some(objection) => {
-                    side.objection = Some(objection.to_string());
+                    side.objection = Some(objection.in_words());
                     None
                 }
                 None => Some((technique, soft)),
@@ -238,7 +257,8 @@ impl Canvas {
         }
         let (stage, timer) = (&mut self.stage, &mut self.timer);
         let [w, h] = size.map(|side| side as u32);
-        let plain = |stage: &mut Stage| stage.draw(&setting, w, h, view.samples, ColorFormat::Rgba16F, Buffers::All);
+        let plain =
+            |stage: &mut Stage| stage.draw(&setting, w, h, view.samples, ColorFormat::Rgba16F, Buffers::All);
         let shadows = |stage: &mut Stage| match technique {
             Some(_) => stage.add_shadows(&setting),
             None => Ok(()),
@@ -252,11 +272,12 @@ impl Canvas {
             shadows(stage)?;
         }
         side.stats = technique.map(|_| stage.shadows().stats());
-        self.depth = Some((view.scene.clone(), view.time, size, view.samples));
+        self.depth = Some((view.scene.clone(), view.time, size));
         if let Some(color) = self.stage.color() {
             // SAFETY: the context is current; the stage's picture has this size and one sample.
             unsafe {
-                Picture::ensure(&mut self.slots[index].picture, &self.gl, size)?.copy_from(&self.gl, color.framebuffer);
+                Picture::ensure(&mut self.slots[index].picture, &self.gl, size)?
+                    .copy_from(&self.gl, color.framebuffer);
             }
         }
         Ok(side)
@@ -269,22 +290,57 @@ impl Canvas {
         Ok(setting)
     }
 
+    /// A scene at a time in antumbra's terms.
+    ///
+    /// # Errors
+    /// Those of a mesh that is none.
+    pub(crate) fn describe(&mut self, scene: &Scene, time: f64) -> Result<Setting, HostError> {
+        self.stage.setting(scene, time, 1.0)
+    }
+
+    /// The shadow map of a light as the first way has it; `None` if that has no maps, or the light none.
+    ///
+    /// # Errors
+    /// Those of the driver.
+    pub(crate) fn map(&mut self, view: &View<'_>, light: usize) -> Result<Option<MapPicture>, HostError> {
+        let setting = self.setting(view)?;
+        let Way::Technique(technique, soft) = view.settings.ways[0] else { return Ok(None) };
+        let is_there = technique.has_maps() && light < setting.described.lights.len();
+        if !is_there || setting.objection(&technique, soft).is_some() {
+            return Ok(None);
+        }
+        self.ensure_depth(view, &setting)?;
+        self.stage.set_technique(technique)?;
+        self.stage.set_soft(soft);
+        let Some(map) = self.stage.depth_map(&setting, light)? else { return Ok(None) };
+        // SAFETY: the context is current, and the map was just drawn.
+        unsafe { self.map_view.draw(&self.gl, &map).map(Some) }
+    }
+
+    /// Draws the scene if its depth is not there.
+    fn ensure_depth(&mut self, view: &View<'_>, setting: &Setting) -> Result<(), HostError> {
+        let size = [view.rect[2], view.rect[3]];
+        let current = self.depth.as_ref().is_some_and(|(scene, time, of)| {
+            Arc::ptr_eq(scene, view.scene) && *time == view.time && *of == size
+        });
+        if !current {
+            let [w, h] = size.map(|side| side as u32);
+            self.stage.draw(setting, w, h, 1, ColorFormat::Rgba16F, Buffers::All)?;
+            self.depth = Some((view.scene.clone(), view.time, size));
+        }
+        Ok(())
+    }
+
     fn draw_strokes(&mut self, view: &View<'_>) -> Result<(), HostError> {
         if view.strokes.is_empty() {
             return Ok(());
         }
         let setting = self.setting(view)?;
         let size = [view.rect[2], view.rect[3]];
-        let current = self.depth.as_ref().is_some_and(|(scene, time, of, _)| {
-            Arc::ptr_eq(scene, view.scene) && *time == view.time && *of == size
-        });
-        if !current {
-            let [w, h] = size.map(|side| side as u32);
-            self.stage.draw(&setting, w, h, 1, ColorFormat::Rgba16F, Buffers::Color)?;
-            self.depth = Some((view.scene.clone(), view.time, size, 1));
-        }
+        self.ensure_depth(view, &setting)?;
         let Some(surface) = self.stage.surface() else { return Ok(()) };
-        let place = Place { setting: &setting, surface: &surface, texels: size, rect: view.rect, scale: view.scale };
+        let place =
+            Place { setting: &setting, surface: &surface, texels: size, rect: view.rect, scale: view.scale };
         let [x, y, w, h] = view.rect;
         // SAFETY: the context is current; the surface is the stage's own.
         unsafe {
@@ -340,11 +396,6 @@ impl Canvas {
         let rgb = rows.flat_map(|row| row.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]])).collect();
         Ok((w as u32, h as u32, rgb))
     }
-
-    /// Whether the error map or the split compare two finished things of one size.
-    pub(crate) fn layout_is_comparison(settings: &Settings) -> bool {
-        settings.layout != Layout::Single && settings.ways[0] != settings.ways[1]
-    }
 }
 
 fn srgb(linear: f32) -> f32 {
@@ -361,6 +412,7 @@ impl Drop for Canvas {
             }
             self.compose.delete(&self.gl);
             self.lines.delete(&self.gl);
+            self.map_view.delete(&self.gl);
         }
     }
 }

@@ -25,7 +25,17 @@ impl Picture {
             gl.bind_texture(glow::TEXTURE_2D, Some(texture));
             let none = glow::PixelUnpackData::Slice(None);
             let (w, h) = (size[0], size[1]);
-            gl.tex_image_2d(glow::TEXTURE_2D, 0, glow::RGBA16F as i32, w, h, 0, glow::RGBA, glow::FLOAT, none);
+            gl.tex_image_2d(
+                glow::TEXTURE_2D,
+                0,
+                glow::RGBA16F as i32,
+                w,
+                h,
+                0,
+                glow::RGBA,
+                glow::FLOAT,
+                none,
+            );
             for (name, value) in [
                 (glow::TEXTURE_MIN_FILTER, glow::LINEAR),
                 (glow::TEXTURE_MAG_FILTER, glow::LINEAR),

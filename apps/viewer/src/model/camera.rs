@@ -48,7 +48,9 @@ pub(crate) fn step(camera: &Camera, by: DVec3) -> Camera {
 /// Looks at everything finite in a scene from the side it is seen from.
 pub(crate) fn frame(camera: &Camera, moment: &Moment, aspect: f64) -> Camera {
     let boxes = moment.primitives.iter().filter_map(antumbra_scene::Primitive::bounds);
-    let Some((low, high)) = boxes.reduce(|(a, b), (low, high)| (a.min(low), b.max(high))) else { return *camera };
+    let Some((low, high)) = boxes.reduce(|(a, b), (low, high)| (a.min(low), b.max(high))) else {
+        return *camera;
+    };
     let radius = 0.5 * low.distance(high).max(CLOSEST);
     let half_angle = (0.5 * camera.fov_y).tan().min((0.5 * camera.fov_y).tan() * aspect).atan();
     let (_, _, forward) = camera.axes();
@@ -60,7 +62,8 @@ pub(crate) fn frame(camera: &Camera, moment: &Moment, aspect: f64) -> Camera {
 fn sane(old: &Camera, new: Camera) -> Camera {
     let within = |p: DVec3| p.is_finite() && p.abs().max_element() <= limits::MAX_COORDINATE;
     let arm = new.target - new.eye;
-    let looks = arm.length() >= CLOSEST && arm.normalize_or_zero().cross(new.up.normalize_or_zero()).length() > 1e-5;
+    let looks =
+        arm.length() >= CLOSEST && arm.normalize_or_zero().cross(new.up.normalize_or_zero()).length() > 1e-5;
     if within(new.eye) && within(new.target) && looks { new } else { *old }
 }
 
@@ -104,7 +107,8 @@ impl Lens {
         let slope = normal.dot(direction);
         let distance = normal.dot(point - self.camera.eye) / slope;
         let reach = 100.0 * self.camera.eye.distance(point).max(self.camera.eye.distance(self.camera.target));
-        (slope.abs() > 1e-6 && distance > 0.0 && distance < reach).then(|| self.camera.eye + direction * distance)
+        (slope.abs() > 1e-6 && distance > 0.0 && distance < reach)
+            .then(|| self.camera.eye + direction * distance)
     }
 
     /// The camera.
@@ -133,7 +137,10 @@ mod tests {
         }
         assert!(orbit(&c, 0.0, 0.1).eye.y > c.eye.y, "up is up");
         let (right, ..) = c.axes();
-        assert!((orbit(&c, 0.1, 0.0).eye - c.eye).dot(right) < 0.0, "the scene turns to the right with the hand");
+        assert!(
+            (orbit(&c, 0.1, 0.0).eye - c.eye).dot(right) < 0.0,
+            "the scene turns to the right with the hand"
+        );
     }
 
     #[test]
@@ -147,7 +154,9 @@ mod tests {
         }
         let lens = Lens::new(&c, DVec2::new(800.0, 600.0));
         let before = lens.project(c.target).expect("seen");
-        let after = Lens::new(&pan(&c, DVec2::new(0.1, 0.2)), DVec2::new(800.0, 600.0)).project(c.target).expect("seen");
+        let after = Lens::new(&pan(&c, DVec2::new(0.1, 0.2)), DVec2::new(800.0, 600.0))
+            .project(c.target)
+            .expect("seen");
         assert!((after - before - DVec2::new(-60.0, 120.0)).length() < 1e-6, "{before} to {after}");
     }
 
@@ -180,7 +189,10 @@ mod tests {
         let lens = Lens::new(&framed, DVec2::new(300.0, 600.0));
         for offset in [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Y, -DVec3::Z] {
             let at = lens.project(DVec3::splat(5.0) + offset * 2.0).expect("in front");
-            assert!(at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::new(300.0, 600.0)).all(), "{at} is outside");
+            assert!(
+                at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::new(300.0, 600.0)).all(),
+                "{at} is outside"
+            );
         }
     }
 }

@@ -273,7 +273,13 @@ mod tests {
         let all: Vec<&Binding> = bindings().collect();
         for (i, a) in all.iter().enumerate() {
             for b in &all[i + 1..] {
-                assert!(!b.matches(a.key, a.modifiers), "{} is {:?} and {:?}", a.text(), a.command, b.command);
+                assert!(
+                    !b.matches(a.key, a.modifiers),
+                    "{} is {:?} and {:?}",
+                    a.text(),
+                    a.command,
+                    b.command
+                );
             }
         }
     }

@@ -34,6 +34,8 @@ pub(crate) type Stroke = (&'static str, usize);
 pub(crate) struct Document {
     scene: Arc<Scene>,
     source: Source,
+    /// The file whose folder the paths of meshes are relative to.
+    loaded_from: Option<PathBuf>,
     saved: Arc<Scene>,
     modified: bool,
     undo: Vec<Arc<Scene>>,
@@ -47,7 +49,20 @@ impl Document {
     pub(crate) fn new(scene: Scene, source: Source) -> Self {
         let scene = Arc::new(scene);
         let saved = scene.clone();
-        Self { saved, scene, source, modified: false, undo: Vec::new(), redo: Vec::new(), open: None }
+        let loaded_from = match &source {
+            Source::File(path) => Some(path.clone()),
+            Source::Gallery(_) => None,
+        };
+        Self {
+            saved,
+            scene,
+            source,
+            loaded_from,
+            modified: false,
+            undo: Vec::new(),
+            redo: Vec::new(),
+            open: None,
+        }
     }
 
     /// Reads a file.
@@ -150,11 +165,7 @@ impl Document {
     /// # Errors
     /// Those of writing.
     pub(crate) fn save(&mut self, path: &Path) -> Result<(), SceneError> {
-        let from = match &self.source {
-            Source::File(path) => Some(path.clone()),
-            Source::Gallery(_) => None,
-        };
-        self.scene.save(path, from.as_deref())?;
+        self.scene.save(path, self.loaded_from.as_deref())?;
         self.source = Source::File(path.to_owned());
         self.saved = self.scene.clone();
         self.modified = false;

@@ -45,7 +45,8 @@ pub(crate) fn reshape(object: &mut Object, shape: PaperShape) {
         PaperShape::Circle => Shape::Disc { radius },
         PaperShape::Sphere => Shape::Sphere { radius },
         PaperShape::Triangle => {
-            let corner = |turns: f64| DQuat::from_rotation_y(turns * std::f64::consts::TAU) * (DVec3::Z * radius);
+            let corner =
+                |turns: f64| DQuat::from_rotation_y(turns * std::f64::consts::TAU) * (DVec3::Z * radius);
             Shape::Triangle { vertices: [corner(0.0), corner(1.0 / 3.0), corner(2.0 / 3.0)] }
         }
         PaperShape::Cone => Shape::Cone { radius, height: 2.0 * radius },
@@ -58,13 +59,23 @@ fn size(object: &Object) -> f64 {
     if let [Part { shape, .. }] = object.parts.as_slice() {
         match *shape {
             Shape::Disc { radius } | Shape::Sphere { radius } | Shape::Cone { radius, .. } => return radius,
-            Shape::Triangle { vertices } => return vertices.iter().map(|v| v.length()).fold(0.0, f64::max).max(limits::MIN_LENGTH),
+            Shape::Triangle { vertices } => {
+                return vertices.iter().map(|v| v.length()).fold(0.0, f64::max).max(limits::MIN_LENGTH);
+            }
             _ => {}
         }
     }
     let bounds = object.parts.iter().map(|part| {
         let pose = part.pose;
-        let primitive = Primitive { object: 0, part: 0, shape: part.shape.clone(), pose, color: DVec3::ONE, casts_shadow: true, receives_shadow: true };
+        let primitive = Primitive {
+            object: 0,
+            part: 0,
+            shape: part.shape.clone(),
+            pose,
+            color: DVec3::ONE,
+            casts_shadow: true,
+            receives_shadow: true,
+        };
         primitive.bounds()
     });
     let whole = bounds.reduce(|a, b| a.zip(b).map(|((al, ah), (bl, bh))| (al.min(bl), ah.max(bh))));
@@ -81,7 +92,11 @@ pub(crate) fn add_light(scene: &mut Scene, kind: LightKind, distance: f64) -> Op
     let directional = matches!(kind, LightKind::Directional { .. });
     // As bright as the scale of the scene asks for: the same illuminance below it.
     let intensity = if directional { 2.0 } else { (2.0 * distance * distance).min(limits::MAX_BRIGHTNESS) };
-    let position = if directional { DVec3::ZERO } else { within(scene.camera.target + DVec3::new(0.3, 0.8, 0.3) * distance) };
+    let position = if directional {
+        DVec3::ZERO
+    } else {
+        within(scene.camera.target + DVec3::new(0.3, 0.8, 0.3) * distance)
+    };
     scene.lights.push(Light { name, kind, position, color: DVec3::ONE, intensity, motion: None });
     Some(scene.lights.len() - 1)
 }
@@ -94,7 +109,8 @@ pub(crate) fn add_object(scene: &mut Scene, kind: &str, shape: Shape) -> Option<
         return None;
     }
     let name = scene.unique_object_name(kind);
-    let translation = if shape == Shape::Plane { DVec3::ZERO } else { within(scene.camera.target + DVec3::Y) };
+    let translation =
+        if shape == Shape::Plane { DVec3::ZERO } else { within(scene.camera.target + DVec3::Y) };
     scene.objects.push(Object {
         name,
         parts: vec![Part { shape, pose: Pose::IDENTITY }],
@@ -159,7 +175,10 @@ motion = { type = "orbit", center = [1, 0, 0], axis = [0, 1, 0], period = 2 }
         let after = s.moment(0.7).primitives[1].pose.translation;
         assert!((after - before - DVec3::new(1.0, 2.0, 3.0)).length() < 1e-12, "{before} to {after}");
         move_object(&mut s.objects[1], DVec3::splat(1e9));
-        assert!(s.objects[1].pose.translation.max_element() <= limits::MAX_COORDINATE, "not out of the world");
+        assert!(
+            s.objects[1].pose.translation.max_element() <= limits::MAX_COORDINATE,
+            "not out of the world"
+        );
     }
 
     #[test]
@@ -167,7 +186,10 @@ motion = { type = "orbit", center = [1, 0, 0], axis = [0, 1, 0], period = 2 }
         let mut s = scene();
         move_light(&mut s.lights[0], DVec3::X);
         let LightKind::Directional { direction } = s.lights[0].kind else { panic!("still a sun") };
-        assert!(direction.x < 0.0 && (direction.length() - 1.0).abs() < 1e-12, "moved right, it shines left: {direction}");
+        assert!(
+            direction.x < 0.0 && (direction.length() - 1.0).abs() < 1e-12,
+            "moved right, it shines left: {direction}"
+        );
     }
 
     #[test]

@@ -11,12 +11,13 @@ pub(crate) mod settings;
 pub(crate) mod timing;
 pub(crate) mod way;
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use antumbra::glam::DVec3;
 use antumbra::technique::composite::{Component, components};
-use antumbra_scene::{Camera, Light, Scene};
+use antumbra_scene::{Camera, Light, Motion, Scene};
 
 use crate::GalleryScene;
 use clock::Clock;
@@ -71,6 +72,9 @@ pub(crate) struct Message {
     pub(crate) is_error: bool,
 }
 
+/// Motions of things that were told to stand still, by kind and name, for when they move again.
+pub(crate) type Parked = HashMap<(&'static str, String), Motion>;
+
 /// Which component of the chosen light the keys move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
@@ -96,6 +100,8 @@ pub(crate) struct Model {
     pub(crate) chosen: Option<Item>,
     /// Components that were moved: for each such light all but the central one, from its position.
     pub(crate) components: Vec<Component>,
+    /// Motions that were taken away.
+    pub(crate) parked: Parked,
     /// What is asked.
     pub(crate) dialog: Option<Dialog>,
     /// What is to be done after "Save as".
@@ -126,6 +132,7 @@ impl Model {
             component: None,
             chosen: None,
             components: Vec::new(),
+            parked: Parked::default(),
             dialog: None,
             after_save: None,
             timing: Timing::default(),
@@ -296,6 +303,7 @@ impl Model {
                 self.component = None;
                 self.chosen = None;
                 self.components.clear();
+                self.parked.clear();
                 self.message = None;
                 self.stop_measuring();
                 self.timing.clear();
@@ -349,8 +357,10 @@ impl Model {
 
     /// Where the components of the chosen light are, but for the central one; empty unless it is a collection.
     fn side_components(&self) -> Vec<DVec3> {
-        let own: Vec<DVec3> = self.components.iter().filter(|c| c.light == self.light).map(|c| c.offset).collect();
-        let (Some(count), Some(light)) = (self.settings.components(), self.scene().lights.get(self.light)) else {
+        let own: Vec<DVec3> =
+            self.components.iter().filter(|c| c.light == self.light).map(|c| c.offset).collect();
+        let (Some(count), Some(light)) = (self.settings.components(), self.scene().lights.get(self.light))
+        else {
             return Vec::new();
         };
         if !own.is_empty() && antumbra_host::light(light).area != antumbra::Area::None {
@@ -395,8 +405,12 @@ impl Model {
     /// Moves what is held by the pointer.
     pub(crate) fn move_item(&mut self, item: Item, by: DVec3) {
         match item {
-            Item::Light(i) => self.document.edit(("move light", i), |s| edit::move_light(&mut s.lights[i], by)),
-            Item::Object(i) => self.document.edit(("move object", i), |s| edit::move_object(&mut s.objects[i], by)),
+            Item::Light(i) => {
+                self.document.edit(("move light", i), |s| edit::move_light(&mut s.lights[i], by))
+            }
+            Item::Object(i) => {
+                self.document.edit(("move object", i), |s| edit::move_object(&mut s.objects[i], by))
+            }
         }
     }
 
@@ -420,13 +434,17 @@ impl Model {
         let scene = self.scene();
         let step = DVec3::new(0.3, 0.0, 0.3);
         match self.chosen {
-            Some(Item::Light(i)) if i < scene.lights.len() && scene.lights.len() < antumbra_scene::limits::MAX_LIGHTS => {
+            Some(Item::Light(i))
+                if i < scene.lights.len() && scene.lights.len() < antumbra_scene::limits::MAX_LIGHTS =>
+            {
                 let mut light = scene.lights[i].clone();
                 light.name = scene.unique_light_name(&light.name);
                 edit::move_light(&mut light, step);
                 self.choose_after(Item::Light(scene.lights.len()), |s| s.lights.push(light));
             }
-            Some(Item::Object(i)) if i < scene.objects.len() && scene.objects.len() < antumbra_scene::limits::MAX_OBJECTS => {
+            Some(Item::Object(i))
+                if i < scene.objects.len() && scene.objects.len() < antumbra_scene::limits::MAX_OBJECTS =>
+            {
                 let mut object = scene.objects[i].clone();
                 object.name = scene.unique_object_name(&object.name);
                 edit::move_object(&mut object, step);
@@ -491,7 +509,8 @@ impl Model {
     pub(crate) fn is_moving(&self) -> bool {
         let moves = || {
             let scene = self.scene();
-            scene.lights.iter().any(|l| l.motion.is_some()) || scene.objects.iter().any(|o| o.motion.is_some())
+            scene.lights.iter().any(|l| l.motion.is_some())
+                || scene.objects.iter().any(|o| o.motion.is_some())
         };
         self.clock.playing && self.clock.speed != 0.0 && moves()
     }

@@ -135,8 +135,16 @@ translation = [0, 0.5, 0]
         let seen = |p| lens.project(p).expect("in front");
         let lamp = seen(DVec3::new(2.0, 4.0, 0.0));
         assert_eq!(at(&scene, 0.0, &lens, lamp + 5.0), Some(Item::Light(0)), "near its mark");
-        assert_eq!(at(&scene, 0.0, &lens, seen(DVec3::new(0.0, 0.5, 0.0))), Some(Item::Object(1)), "the ball");
-        assert_eq!(at(&scene, 0.0, &lens, seen(DVec3::new(-3.0, 0.0, 0.0))), Some(Item::Object(0)), "the floor");
+        assert_eq!(
+            at(&scene, 0.0, &lens, seen(DVec3::new(0.0, 0.5, 0.0))),
+            Some(Item::Object(1)),
+            "the ball"
+        );
+        assert_eq!(
+            at(&scene, 0.0, &lens, seen(DVec3::new(-3.0, 0.0, 0.0))),
+            Some(Item::Object(0)),
+            "the floor"
+        );
         assert_eq!(at(&scene, 0.0, &lens, DVec2::new(400.0, -900.0)), None, "the sky");
         assert!(!is_loose(&scene, Item::Object(0)) && is_loose(&scene, Item::Object(1)), "floors stay");
     }
@@ -153,6 +161,10 @@ translation = [0, 0.5, 0]
         assert!(by.y == 0.0 && lens.project(held + by).expect("in front").distance(to) < 1e-6, "{by}");
         let up = grip.drag(&lens, to - DVec2::new(0.0, 50.0), true);
         assert!(up.x == 0.0 && up.z == 0.0 && up.y > 0.0, "{up} is upwards alone");
-        assert_eq!(grip.drag(&lens, DVec2::new(400.0, -5000.0), false), DVec3::ZERO, "not beyond the horizon");
+        assert_eq!(
+            grip.drag(&lens, DVec2::new(400.0, -5000.0), false),
+            DVec3::ZERO,
+            "not beyond the horizon"
+        );
     }
 }

@@ -30,15 +30,6 @@ impl Layout {
             Self::Difference => "Error map",
         }
     }
-
-    /// Its name in what the program remembers and prints.
-    pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Single => "single",
-            Self::Split => "split",
-            Self::Difference => "difference",
-        }
-    }
 }
 
 /// What is drawn over the picture to teach.
@@ -154,7 +145,7 @@ impl Settings {
     /// Whether the first way draws lights with an area as a collection of components.
     pub(crate) fn components(&self) -> Option<u32> {
         match self.ways[0] {
-            Way::Technique(antumbra::Technique::Composite(options), Soft::Native) => Some(options.components),
+            Way::Technique(technique, Soft::Native) => technique.components(),
             _ => None,
         }
     }
@@ -174,7 +165,8 @@ mod tests {
         };
         let text = serde_json::to_string(&settings).expect("it can be written");
         assert_eq!(serde_json::from_str::<Settings>(&text).expect("and read"), settings, "{text}");
-        let old: Settings = serde_json::from_str(r#"{"divider": 7, "unknown": 1}"#).expect("of another version");
+        let old: Settings =
+            serde_json::from_str(r#"{"divider": 7, "unknown": 1}"#).expect("of another version");
         assert_eq!(old.sane().divider, *DIVIDERS.end(), "put right");
     }
 }

@@ -60,11 +60,19 @@ fn components_move_one_by_one() {
     assert!(matches!(moved[..], [o] if o.x == -0.5 && o.y == STEP), "the left one alone moved: {offsets:?}");
     m.apply(Command::Second);
     m.apply(Command::MoveLight(DVec3::X));
-    assert!(m.components.iter().any(|c| (c.offset.x - 0.5 - STEP).abs() < 1e-12), "the right one: {:?}", m.components);
+    assert!(
+        m.components.iter().any(|c| (c.offset.x - 0.5 - STEP).abs() < 1e-12),
+        "the right one: {:?}",
+        m.components
+    );
     assert_eq!(m.scene().lights[0].position.x, -2.0, "the light stays");
     m.apply(Command::ChooseLight(1));
     m.apply(Command::First);
-    assert_eq!((m.light, m.component), (0, None), "of a point light there are no components: G is the first light");
+    assert_eq!(
+        (m.light, m.component),
+        (0, None),
+        "of a point light there are no components: G is the first light"
+    );
 }
 
 #[test]
@@ -82,7 +90,11 @@ fn deleting_and_undoing() {
     let mut m = model();
     m.choose(Some(Item::Light(1)));
     m.apply(Command::Delete);
-    assert_eq!((m.scene().lights.len(), m.light, m.chosen), (1, 0, None), "one is left, and is the one that moves");
+    assert_eq!(
+        (m.scene().lights.len(), m.light, m.chosen),
+        (1, 0, None),
+        "one is left, and is the one that moves"
+    );
     m.apply(Command::Delete);
     assert_eq!(m.scene().lights.len(), 1, "nothing was chosen");
     m.apply(Command::Undo);
@@ -124,7 +136,11 @@ fn changes_are_not_lost_unasked() {
 fn what_cannot_be_shown_leaves_what_is() {
     let mut m = model();
     m.show(Source::File("/nowhere/scene.toml".into()));
-    assert!(m.message.as_ref().is_some_and(|m| m.is_error && m.text.contains("/nowhere/scene.toml")), "{:?}", m.message);
+    assert!(
+        m.message.as_ref().is_some_and(|m| m.is_error && m.text.contains("/nowhere/scene.toml")),
+        "{:?}",
+        m.message
+    );
     assert_eq!(m.scene().lights.len(), 2, "the old one is still there");
 }
 
@@ -136,12 +152,20 @@ fn saving_goes_on_with_what_was_to_be_done() {
     m.apply(Command::MoveLight(DVec3::X));
     m.apply(Command::Quit);
     m.save_then(Then::Quit);
-    assert_eq!((m.dialog.clone(), m.requests.len()), (Some(Dialog::SaveAs), 0), "of the gallery: it asks where");
+    assert_eq!(
+        (m.dialog.clone(), m.requests.len()),
+        (Some(Dialog::SaveAs), 0),
+        "of the gallery: it asks where"
+    );
     m.apply(Command::Escape);
     assert_eq!((m.dialog.clone(), m.after_save.clone()), (None, None), "and forgets it");
     m.apply(Command::SaveAs);
     assert!(m.save_here(&path), "saved: {:?}", m.message);
-    assert_eq!((m.dialog.clone(), m.requests.len(), m.document.is_modified()), (None, 0, false), "and nothing else");
+    assert_eq!(
+        (m.dialog.clone(), m.requests.len(), m.document.is_modified()),
+        (None, 0, false),
+        "and nothing else"
+    );
     m.apply(Command::MoveLight(DVec3::X));
     let two = Source::Gallery("two".into());
     m.save_then(Then::Show(two.clone()));

@@ -40,7 +40,9 @@ impl Way {
     pub(crate) fn summary(&self) -> &'static str {
         match self {
             Self::Technique(technique, _) => technique.about().summary,
-            Self::Raytraced => "the reference: every ray traced on the CPU in double precision, refined as you look",
+            Self::Raytraced => {
+                "the reference: every ray traced on the CPU in double precision, refined as you look"
+            }
             Self::None => "the scene as the host draws it, without shadows",
         }
     }

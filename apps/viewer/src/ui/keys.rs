@@ -16,7 +16,10 @@ pub(crate) fn press(context: &Context, model: &mut Model) {
             Event::Key { key, pressed: true, modifiers, .. } => Some((*key, *modifiers)),
             _ => None,
         });
-        pressed.filter_map(|(key, held)| bindings().find(|b| b.matches(key, held))).map(|b| b.command).collect()
+        pressed
+            .filter_map(|(key, held)| bindings().find(|b| b.matches(key, held)))
+            .map(|b| b.command)
+            .collect()
     });
     for command in commands {
         let always = command == crate::model::command::Command::Escape;

@@ -77,9 +77,11 @@ fn time(ui: &mut Ui, model: &mut Model) {
         model.apply(Command::Rewind);
     }
     let label = ui.label("time");
-    ui.add(DragValue::new(&mut model.clock.time).speed(0.02).fixed_decimals(2).suffix(" s")).labelled_by(label.id);
+    ui.add(DragValue::new(&mut model.clock.time).speed(0.02).fixed_decimals(2).suffix(" s"))
+        .labelled_by(label.id);
     let label = ui.label("speed");
-    ui.add(DragValue::new(&mut model.clock.speed).speed(0.02).range(-16.0..=16.0).suffix(" ×")).labelled_by(label.id);
+    ui.add(DragValue::new(&mut model.clock.speed).speed(0.02).range(-16.0..=16.0).suffix(" ×"))
+        .labelled_by(label.id);
     if !model.clock.time.is_finite() {
         model.clock.time = 0.0;
     }

@@ -1,26 +1,31 @@
 //! The interface: what is round the picture and over it, and what pointer and keys do.
 
 mod dialog;
+mod fields;
 mod files;
 mod help;
 mod keys;
+mod lights;
 mod menu;
+mod objects;
 pub(crate) mod overlay;
 mod panel;
 mod picture;
 mod status;
 pub(crate) mod style;
+pub(crate) mod teaching;
 pub(crate) mod timing;
 mod unsaved;
 
 use antumbra_host::ContextInfo;
+use antumbra_scene::Motion;
 use egui::{CentralPanel, Frame, Panel, Rect, Ui};
 
 use crate::canvas::Side;
-use crate::model::Model;
 use crate::model::files::Files;
 use crate::model::pick::Grip;
 use crate::model::settings::Layout;
+use crate::model::{Model, Parked};
 use crate::report::Control;
 
 /// What the interface knows besides the model: what was seen in the frames before, and what the pointer holds.
@@ -35,6 +40,10 @@ pub(crate) struct Seen {
     pub(crate) error: Option<[f32; 2]>,
     /// The named controls of the last frame, where somebody asks for them.
     pub(crate) controls: Vec<Control>,
+    /// Lines and numbers that teach.
+    pub(crate) lesson: teaching::Lesson,
+    /// The map of the chosen light.
+    pub(crate) map: Option<MapImage>,
     /// The driver's name.
     pub(crate) renderer: String,
     /// Which clock frame times are of.
@@ -56,6 +65,8 @@ impl Seen {
             traced: None,
             error: None,
             controls: Vec::new(),
+            lesson: Default::default(),
+            map: None,
             renderer: info.renderer.clone(),
             clock,
             files: None,
@@ -84,6 +95,17 @@ impl Seen {
     }
 }
 
+/// A picture of a map that the interface can show.
+#[derive(PartialEq)]
+pub(crate) struct MapImage {
+    /// As the interface knows it.
+    pub(crate) id: egui::TextureId,
+    /// The part of the texture that it takes, pixels.
+    pub(crate) size: [i32; 2],
+    /// What it is.
+    pub(crate) caption: String,
+}
+
 /// Shows everything and does what the user asks; where the picture is, points.
 pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     let context = root.ctx().clone();
@@ -96,7 +118,10 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     Panel::top("menu").show(root, |ui| menu::bar(ui, model));
     Panel::bottom("status").show(root, |ui| status::line(ui, model, seen));
     if model.settings.panel {
-        Panel::right("panel").default_size(300.0).min_size(240.0).show(root, |ui| panel::show(ui, model, seen));
+        Panel::right("panel")
+            .default_size(300.0)
+            .size_range(260.0..=480.0)
+            .show(root, |ui| panel::show(ui, model, seen));
     }
     if model.settings.timing {
         let most = (0.6 * root.available_height()).max(90.0);
@@ -107,4 +132,39 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
         CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner;
     dialog::show(&context, model, seen);
     picture
+}
+
+/// Whether something moves: a box to tick. A motion that is taken away comes back when it is ticked again.
+fn moves(
+    ui: &mut Ui,
+    parked: &mut Parked,
+    (kind, name): (&'static str, &str),
+    motion: &mut Option<Motion>,
+    otherwise: impl FnOnce() -> Motion,
+) -> bool {
+    let mut on = motion.is_some();
+    if !ui.checkbox(&mut on, "moves").changed() {
+        return false;
+    }
+    let key = (kind, name.to_owned());
+    if on {
+        *motion = Some(parked.remove(&key).unwrap_or_else(otherwise));
+    } else if let Some(motion) = motion.take() {
+        parked.insert(key, motion);
+    }
+    true
+}
+
+/// A list of any length, of which the rows in sight are made.
+fn list(ui: &mut Ui, name: &str, count: usize, mut row: impl FnMut(&mut Ui, usize)) {
+    let height = ui.spacing().interact_size.y;
+    let area = egui::ScrollArea::vertical()
+        .id_salt(name)
+        .max_height(10.0 * (height + 4.0))
+        .auto_shrink([false, true]);
+    area.show_rows(ui, height, count, |ui, rows| {
+        for i in rows {
+            ui.horizontal(|ui| row(ui, i));
+        }
+    });
 }

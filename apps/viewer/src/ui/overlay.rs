@@ -22,9 +22,9 @@ pub(crate) fn marks(painter: &Painter, rect: Rect, lens: &Lens, model: &Model) {
     for (i, light) in moment.lights.iter().enumerate() {
         let Some(at) = pick::mark(model.scene(), &moment, i).and_then(|p| lens.project(p)) else { continue };
         let at = place(rect, at);
-        let [r, g, b] = (light.color / light.color.max_element().max(1e-9)).to_array().map(|c| {
-            (c.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0) as u8
-        });
+        let [r, g, b] = (light.color / light.color.max_element().max(1e-9))
+            .to_array()
+            .map(|c| (c.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0) as u8);
         let color = if light.intensity > 0.0 { Color32::from_rgb(r, g, b) } else { Color32::from_gray(60) };
         let chosen = model.chosen == Some(Item::Light(i));
         let ring = if chosen { ACCENT } else { Color32::from_black_alpha(200) };
@@ -33,7 +33,13 @@ pub(crate) fn marks(painter: &Painter, rect: Rect, lens: &Lens, model: &Model) {
         if i == model.light || chosen {
             painter.circle_stroke(at, 9.0, Stroke::new(1.0, ACCENT));
             let font = FontId::proportional(12.0);
-            painter.text(at + vec2(13.0, 1.0), Align2::LEFT_CENTER, &light.name, font.clone(), Color32::BLACK);
+            painter.text(
+                at + vec2(13.0, 1.0),
+                Align2::LEFT_CENTER,
+                &light.name,
+                font.clone(),
+                Color32::BLACK,
+            );
             painter.text(at + vec2(12.0, 0.0), Align2::LEFT_CENTER, &light.name, font, Color32::WHITE);
         }
         if matches!(light.kind, LightKind::Directional { .. }) {
@@ -54,7 +60,7 @@ pub(crate) fn marks(painter: &Painter, rect: Rect, lens: &Lens, model: &Model) {
 }
 
 /// Lines in the world: the outlines of lights, and a box round what is chosen.
-pub(crate) fn strokes(model: &Model, _size: DVec2) -> Vec<lines::Stroke> {
+pub(crate) fn strokes(model: &Model) -> Vec<lines::Stroke> {
     let mut strokes = Vec::new();
     if !model.settings.marks {
         return strokes;
@@ -140,7 +146,11 @@ fn outline(light: &Light, push: &mut dyn FnMut(Vec<DVec3>, bool)) {
 /// Which colour is which error.
 pub(crate) fn error_legend(painter: &Painter, rect: Rect, scale: f32) {
     let bar = Rect::from_min_size(pos2(rect.left() + 14.0, rect.bottom() - 34.0), vec2(200.0, 12.0));
-    painter.rect_filled(bar.expand2(vec2(8.0, 6.0)).translate(vec2(0.0, 7.0)).expand2(vec2(6.0, 9.0)), 3.0, Color32::from_black_alpha(170));
+    painter.rect_filled(
+        bar.expand2(vec2(8.0, 6.0)).translate(vec2(0.0, 7.0)).expand2(vec2(6.0, 9.0)),
+        3.0,
+        Color32::from_black_alpha(170),
+    );
     let steps = 100;
     for i in 0..steps {
         let [r, g, b] = error_color(i as f32 / (steps - 1) as f32);

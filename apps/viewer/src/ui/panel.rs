@@ -4,15 +4,23 @@ use antumbra::technique::Allowed;
 use antumbra::{Pattern, Soft, Technique};
 use egui::{CollapsingHeader, ComboBox, DragValue, ScrollArea, Slider, Ui};
 
-use super::Seen;
+use super::{Seen, lights, objects, teaching};
 use crate::model::Model;
-use crate::model::settings::{ERROR_SCALES, Layout};
+use crate::model::settings::{Antialiasing, ERROR_SCALES, Layout, ZOOMS};
 use crate::model::way::Way;
 
 /// Everything in it.
-pub(crate) fn show(ui: &mut Ui, model: &mut Model, _seen: &Seen) {
+pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &Seen) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // What is too wide is wrapped: the panel is as wide as the user made it.
+        ui.set_max_width(ui.available_width() - 4.0);
         CollapsingHeader::new("Shadows").default_open(true).show(ui, |ui| shadows(ui, model));
+        CollapsingHeader::new("Lights").default_open(true).show(ui, |ui| lights::show(ui, model));
+        CollapsingHeader::new("Objects").default_open(true).show(ui, |ui| objects::show(ui, model));
+        CollapsingHeader::new("Teaching")
+            .default_open(true)
+            .show(ui, |ui| teaching::section(ui, model, seen));
+        CollapsingHeader::new("Settings").show(ui, |ui| settings(ui, model));
     });
 }
 
@@ -37,8 +45,38 @@ fn shadows(ui: &mut Ui, model: &mut Model) {
     if settings.layout == Layout::Difference {
         ui.horizontal(|ui| {
             let label = ui.label("brightest");
-            ui.add(Slider::new(&mut settings.error_scale, ERROR_SCALES).logarithmic(true)).labelled_by(label.id);
+            ui.add(Slider::new(&mut settings.error_scale, ERROR_SCALES).logarithmic(true))
+                .labelled_by(label.id);
         });
+    }
+}
+
+/// How things are drawn.
+fn settings(ui: &mut Ui, model: &mut Model) {
+    let settings = &mut model.settings;
+    ui.checkbox(&mut settings.marks, "marks");
+    ui.checkbox(&mut settings.vsync, "wait for the screen (vsync)");
+    ui.horizontal(|ui| {
+        let label = ui.label("antialiasing");
+        let name = match settings.antialiasing {
+            Antialiasing::Auto => "auto".to_owned(),
+            Antialiasing::Samples(n) => n.to_string(),
+        };
+        let combo = ComboBox::from_id_salt("antialiasing").selected_text(name).show_ui(ui, |ui| {
+            ui.selectable_value(&mut settings.antialiasing, Antialiasing::Auto, "auto");
+            for n in [1, 2, 4, 8] {
+                ui.selectable_value(&mut settings.antialiasing, Antialiasing::Samples(n), n.to_string());
+            }
+        });
+        combo.response.labelled_by(label.id);
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label("size of the interface");
+        let zoom = DragValue::new(&mut settings.zoom).range(ZOOMS).speed(0.01).update_while_editing(false);
+        ui.add(zoom).labelled_by(label.id);
+    });
+    if ui.button("Reset settings").clicked() {
+        model.reset_settings();
     }
 }
 
@@ -49,9 +87,13 @@ fn way(ui: &mut Ui, label: &str, way: &mut Way) {
         let combo = ComboBox::from_id_salt("way").selected_text(way.name()).show_ui(ui, |ui| {
             for other in Way::all() {
                 let chosen = other.name() == way.name();
-                if ui.selectable_label(chosen, other.name()).on_hover_text(other.summary()).clicked() && !chosen {
+                if ui.selectable_label(chosen, other.name()).on_hover_text(other.summary()).clicked()
+                    && !chosen
+                {
                     *way = match (other, *way) {
-                        (Way::Technique(technique, _), Way::Technique(_, soft)) => Way::Technique(technique, soft),
+                        (Way::Technique(technique, _), Way::Technique(_, soft)) => {
+                            Way::Technique(technique, soft)
+                        }
                         (other, _) => other,
                     };
                 }
@@ -126,7 +168,11 @@ fn options(ui: &mut Ui, technique: &mut Technique) {
                     let slider = Slider::new(&mut value, low..=high).logarithmic(high > 100.0);
                     let slider = if whole { slider.integer() } else { slider };
                     if ui.add(slider).labelled_by(label.id).changed() {
-                        set(if whole { format!("{}", value.round() as i64) } else { format!("{}", value as f32) });
+                        set(if whole {
+                            format!("{}", value.round() as i64)
+                        } else {
+                            format!("{}", value as f32)
+                        });
                     }
                 }
                 _ => {}

@@ -4,11 +4,11 @@ use antumbra::glam::DVec2;
 use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
 use super::style::ACCENT;
-use super::{Seen, overlay};
+use super::{Seen, overlay, teaching};
+use crate::model::Model;
 use crate::model::camera::{self, Lens};
 use crate::model::pick::{self, Grip};
 use crate::model::settings::{DIVIDERS, Layout};
-use crate::model::Model;
 
 /// How near the divider is still meant, points.
 const DIVIDER_REACH: f32 = 6.0;
@@ -30,6 +30,8 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
         overlay::marks(&painter, rect, &lens, model);
     }
     names(&painter, rect, model, seen);
+    teaching::legend(&painter, rect, &seen.lesson);
+    teaching::map(ui, rect, model, seen);
     rect
 }
 
@@ -63,7 +65,8 @@ fn drag(ui: &Ui, model: &mut Model, seen: &mut Seen, response: &Response, size: 
         if let Some(start) = start {
             seen.dividing = over_divider(start);
             let at = inside(rect, start);
-            let item = pick::at(model.scene(), time, &lens, at).filter(|_| !seen.dividing && !modifiers.shift);
+            let item =
+                pick::at(model.scene(), time, &lens, at).filter(|_| !seen.dividing && !modifiers.shift);
             let item = item.filter(|&item| pick::is_loose(model.scene(), item) || model.chosen == Some(item));
             seen.grip = item.and_then(|item| Grip::new(model.scene(), time, &lens, at, item));
             if let Some(grip) = &seen.grip {
@@ -76,7 +79,8 @@ fn drag(ui: &Ui, model: &mut Model, seen: &mut Seen, response: &Response, size: 
     {
         let delta = response.drag_delta();
         if seen.dividing {
-            model.settings.divider = ((at.x - rect.left()) / rect.width()).clamp(*DIVIDERS.start(), *DIVIDERS.end());
+            model.settings.divider =
+                ((at.x - rect.left()) / rect.width()).clamp(*DIVIDERS.start(), *DIVIDERS.end());
         } else if let Some(grip) = &mut seen.grip {
             let by = grip.drag(&lens, inside(rect, at), modifiers.command);
             let item = grip.item;
@@ -149,8 +153,14 @@ fn names(painter: &egui::Painter, rect: Rect, model: &Model, seen: &Seen) {
                 text(at, align, &way.to_string(), 13.0);
             }
             let x = divider_x(rect, model);
-            painter.line_segment([pos2(x, rect.top()), pos2(x, rect.bottom())], Stroke::new(3.0, Color32::from_black_alpha(120)));
-            painter.line_segment([pos2(x, rect.top()), pos2(x, rect.bottom())], Stroke::new(1.0, Color32::WHITE));
+            painter.line_segment(
+                [pos2(x, rect.top()), pos2(x, rect.bottom())],
+                Stroke::new(3.0, Color32::from_black_alpha(120)),
+            );
+            painter.line_segment(
+                [pos2(x, rect.top()), pos2(x, rect.bottom())],
+                Stroke::new(1.0, Color32::WHITE),
+            );
             painter.circle(pos2(x, rect.center().y), 7.0, Color32::from_gray(40), Stroke::new(1.5, ACCENT));
         }
         Layout::Difference => {

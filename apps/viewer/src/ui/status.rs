@@ -32,7 +32,14 @@ pub(crate) fn line(ui: &mut Ui, model: &Model, seen: &Seen) {
             }
             if let Some(stats) = seen.sides[0].stats {
                 ui.separator();
-                ui.label(format!("{} of {} pairs of light and occluder drawn", stats.polygons.min(stats.pairs), stats.pairs));
+                let text = format!(
+                    "{} of {} pairs, {} polygons, {} of {} tiles",
+                    stats.drawn_pairs, stats.pairs, stats.polygons, stats.touched_tiles, stats.tiles
+                );
+                ui.label(text).on_hover_text(
+                    "Pairs of light and occluder that are drawn, what is drawn for them, and the tiles of 16 by 16 \
+                     pixels that shadows may reach; the rest is culled",
+                );
             }
         });
     });

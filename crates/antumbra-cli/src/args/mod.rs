@@ -211,7 +211,7 @@ pub(crate) struct PictureArgs {
 #[cfg(feature = "viewer")]
 #[derive(Debug, Default, clap::Args)]
 pub(crate) struct ViewArgs {
-    /// The scene file; without one, what was looked at last, or else the first scene of the gallery
+    /// The scene file; without one, what was looked at last, or else one of the gallery
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
     /// How shadows are found at first: a technique with options, as for `antumbra render`
@@ -223,7 +223,7 @@ pub(crate) struct ViewArgs {
     /// Begin as at the first start: forget settings, scene and window size
     #[arg(long)]
     pub(crate) fresh: bool,
-    /// Print the state as a line of JSON on standard output whenever it changes
+    /// Print the keys, then the state whenever it changes, each as a line of JSON on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use antumbra_scene::{LightKind, Scene, Shape};
+use antumbra_scene::Scene;
 use serde::Serialize;
 
 use crate::args::CheckArgs;
@@ -135,7 +135,7 @@ fn list(tallies: &[Tally]) -> String {
 }
 
 fn summarise(path: &Path, scene: &Scene) -> Summary {
-    let shapes = scene.objects.iter().flat_map(|object| &object.parts).map(|part| shape_name(&part.shape));
+    let shapes = scene.objects.iter().flat_map(|object| &object.parts).map(|part| part.shape.type_name());
     let mut techniques = Vec::new();
     let mut limits = Vec::new();
     for technique in Technique::all() {
@@ -149,7 +149,7 @@ fn summarise(path: &Path, scene: &Scene) -> Summary {
         valid: true,
         width: scene.image.width,
         height: scene.image.height,
-        lights: tally(scene.lights.iter().map(|light| light_name(&light.kind))),
+        lights: tally(scene.lights.iter().map(|light| light.kind.type_name())),
         objects: scene.objects.len(),
         shapes: tally(shapes),
         moving: scene.lights.iter().any(|light| light.motion.is_some())
@@ -168,34 +168,6 @@ fn tally(kinds: impl Iterator<Item = &'static str>) -> Vec<Tally> {
         }
     }
     tallies
-}
-
-fn light_name(kind: &LightKind) -> &'static str {
-    match kind {
-        LightKind::Point => "point",
-        LightKind::Directional { .. } => "directional",
-        LightKind::Spot { .. } => "spot",
-        LightKind::Sphere { .. } => "sphere",
-        LightKind::Disc { .. } => "disc",
-        LightKind::Rectangle { .. } => "rectangle",
-    }
-}
-
-fn shape_name(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Plane => "plane",
-        Shape::Rectangle { .. } => "rectangle",
-        Shape::Disc { .. } => "disc",
-        Shape::Triangle { .. } => "triangle",
-        Shape::Sphere { .. } => "sphere",
-        Shape::Ellipsoid { .. } => "ellipsoid",
-        Shape::Cone { .. } => "cone",
-        Shape::Cylinder { .. } => "cylinder",
-        Shape::Capsule { .. } => "capsule",
-        Shape::Box { .. } => "box",
-        Shape::Torus { .. } => "torus",
-        Shape::Mesh(_) => "mesh",
-    }
 }
 
 #[cfg(test)]

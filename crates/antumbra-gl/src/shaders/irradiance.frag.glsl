@@ -4,7 +4,6 @@
 // TAKEN:   what shadows take, to be added up over the batches.
 // ALL:     what the lights send, to be added up over the batches, where shadows take anything.
 
-#define BATCH_LIGHTS 8
 #define LIGHT_VECTORS 6
 
 uniform vec4 u_lights[BATCH_LIGHTS * LIGHT_VECTORS];  // view space
@@ -16,10 +15,7 @@ uniform int u_light_count;
 #define LIGHT(i) u_lights[i], u_lights[i + 1], u_lights[i + 2], u_lights[i + 3]
 #endif
 
-#ifndef ALL
-uniform highp SURFACE_SAMPLER u_visibility_0;
-uniform highp SURFACE_SAMPLER u_visibility_1;
-#else
+#ifdef ALL
 uniform highp SURFACE_SAMPLER u_taken;
 #endif
 uniform ivec2 u_visibility_offset;  // from this target's pixel to the visibility textures' texel
@@ -36,12 +32,10 @@ void main() {
     }
     float visibility[BATCH_LIGHTS] = float[BATCH_LIGHTS](1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0);
 #else
-    vec4 v0 = texelFetch(u_visibility_0, texel, SURFACE_INDEX);
-    vec4 v1 = texelFetch(u_visibility_1, texel, SURFACE_INDEX);
-    if (v0 == vec4(1.0) && v1 == vec4(1.0)) {
+    float visibility[BATCH_LIGHTS];
+    if (!any_shadow(texel, visibility)) {
         discard;
     }
-    float visibility[BATCH_LIGHTS] = float[BATCH_LIGHTS](v0.x, v0.y, v0.z, v0.w, v1.x, v1.y, v1.z, v1.w);
 #endif
     SurfacePoint s;
     if (!surface_point(s)) {

@@ -32,8 +32,7 @@ void main() {
 #if defined(SPHERE)
     vec3 center = SHAPE(0).xyz - s.position;
     float radius = SHAPE(0).w;
-    float reach = radius + (s.has_id ? 0.0 : s.tolerance);
-    bool inside = dot(center, center) < reach * reach;
+    bool inside = ball_holds(center, radius, s);
     solid = inside && s.has_id;
     hides = hides && !inside;
     p = antialiased(p, footprint, length(center));
@@ -49,20 +48,14 @@ void main() {
     vec3 axis = SHAPE(1).xyz;
     float radius = SHAPE(0).w;
     float height = SHAPE(1).w;
-    float up = -dot(center, axis);
-    float width = radius * (1.0 - up / height);
-    vec3 out_of_axis = center + axis * up;
-    // How far inside the cone's side and base, in metres.
-    float depth = min(min(up, (width - length(out_of_axis)) * height * inversesqrt(height * height + radius * radius)),
-                      height - up);
-    bool inside = depth > (s.has_id ? 0.0 : -s.tolerance);
+    bool inside = cone_holds(center, axis, radius, height, s);
     solid = inside && s.has_id;
     hides = hides && !inside;
     p = antialiased(p, footprint, length(center + axis * (0.5 * height)));
     vec3 corners[3];
     bool has_triangle = cone_triangle(center, axis, radius, height, corners);
-    Hidden hidden = Hidden(disc_conic(center, axis, radius, p), polygon_of(corners, p), abs(up) > s.tolerance,
-                           has_triangle);
+    Hidden hidden = Hidden(disc_conic(center, axis, radius, p), polygon_of(corners, p),
+                           abs(dot(center, axis)) > s.tolerance, has_triangle);
 #elif defined(PLANE)
     vec3 axis = SHAPE(0).xyz;
     float height = dot(axis, s.position) - SHAPE(0).w;

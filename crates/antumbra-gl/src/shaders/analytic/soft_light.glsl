@@ -1,5 +1,5 @@
-// What the programs of area lights share beside what hides: the pixel's width, and the whole light. LIGHT_TEXELS is 1 for
-// balls, 4 for anything flat.
+// What the programs of area lights share beside what hides: the pixel's width, the whole light, and whether the point is
+// inside of what hides. LIGHT_TEXELS is 1 for balls, 4 for anything flat.
 
 // Half the width, in pixels, that a penumbra has at least.
 #define HALF_WIDTH 0.75
@@ -26,4 +26,19 @@ float light_whole(LightPatch p, Strips strips, vec3 normal) {
 #else
     return strips_whole(strips);
 #endif
+}
+
+// Whether a ball holds the point, which sees its middle at `center`. Without ids a point on the ball counts as inside.
+bool ball_holds(vec3 center, float radius, SurfacePoint s) {
+    float reach = radius + (s.has_id ? 0.0 : s.tolerance);
+    return dot(center, center) < reach * reach;
+}
+
+// The same of a cone, seen with the middle of its base at `center`; the unit vector `axis` leads to its tip.
+bool cone_holds(vec3 center, vec3 axis, float radius, float height, SurfacePoint s) {
+    float up = -dot(center, axis);
+    float width = radius * (1.0 - up / height);
+    // How far inside of the cone's side, in metres.
+    float side = (width - length(center + axis * up)) * height * inversesqrt(height * height + radius * radius);
+    return min(min(up, side), height - up) > (s.has_id ? 0.0 : -s.tolerance);
 }

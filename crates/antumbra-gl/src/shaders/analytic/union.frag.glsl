@@ -82,8 +82,7 @@ bool entry_shape(int entry, SurfacePoint s, out int shape) {
 bool ball_hides(int shape, SurfacePoint s, out float apart, inout bool solid) {
     vec4 ball = texel(shape);
     vec3 center = ball.xyz - s.position;
-    float reach = ball.w + (s.has_id ? 0.0 : s.tolerance);
-    bool inside = dot(center, center) < reach * reach;
+    bool inside = ball_holds(center, ball.w, s);
     solid = solid || (inside && s.has_id);
     apart = length(center);
     return !inside;
@@ -125,10 +124,7 @@ bool cone_hides(int shape, SurfacePoint s, out float apart, inout bool solid) {
     vec4 base = texel(shape);
     vec4 axis = texel(shape + 1);
     vec3 center = base.xyz - s.position;
-    float up = -dot(center, axis.xyz);
-    float width = base.w * (1.0 - up / axis.w);
-    float side = (width - length(center + axis.xyz * up)) * axis.w * inversesqrt(axis.w * axis.w + base.w * base.w);
-    bool inside = min(min(up, side), axis.w - up) > (s.has_id ? 0.0 : -s.tolerance);
+    bool inside = cone_holds(center, axis.xyz, base.w, axis.w, s);
     solid = solid || (inside && s.has_id);
     apart = length(center + axis.xyz * (0.5 * axis.w));
     return !inside;
