@@ -145,7 +145,10 @@ mod tests {
         let path = folder.path().join("viewer.json");
         std::fs::write(&path, "{ \"settings\": 3 }").expect("written");
         assert_eq!(Remembered::read(&path), None, "not what it is");
-        let bad = Remembered { camera: Some(Eye { eye: [0.0; 3], target: [0.0; 3], up: [0.0; 3], fov_y: 1.0 }), ..Remembered::default() };
+        let bad = Remembered {
+            camera: Some(Eye { eye: [0.0; 3], target: [0.0; 3], up: [0.0; 3], fov_y: 1.0 }),
+            ..Remembered::default()
+        };
         let mut model = model();
         let before = model.scene().camera;
         bad.restore(&mut model);

@@ -50,10 +50,14 @@ pub(crate) struct Files {
     pub(crate) text: String,
     /// Which entry was chosen last.
     pub(crate) chosen: Option<usize>,
+    /// Whether that was by keys, so that it may be out of sight.
+    pub(crate) moved: bool,
     /// What went wrong.
     pub(crate) error: Option<String>,
     /// A file that is there already, and would be replaced.
     pub(crate) replace: Option<PathBuf>,
+    /// What a file is called as long as nobody says otherwise.
+    suggestion: String,
     /// The file of the present scene, which "Save as" may write without asking.
     present: Option<PathBuf>,
 }
@@ -68,7 +72,7 @@ impl Files {
             Source::File(path) => Some(path.clone()),
             Source::Gallery(_) => None,
         };
-        let text = match (purpose, source) {
+        let suggestion = match (purpose, source) {
             (Purpose::Open, _) => String::new(),
             (Purpose::Save, Source::File(_)) => source.name(),
             (Purpose::Save, Source::Gallery(name)) => format!("{}.{ENDING}", name.replace(['/', '\\'], "-")),
@@ -78,10 +82,12 @@ impl Files {
             purpose,
             folder: PathBuf::new(),
             entries: Vec::new(),
-            text,
+            text: suggestion.clone(),
             chosen: None,
+            moved: false,
             error: None,
             replace: None,
+            suggestion,
             present,
         };
         if !files.go(&start) {
@@ -143,6 +149,7 @@ impl Files {
             (Some(i), false) => i.saturating_sub(1),
         };
         self.choose(index);
+        self.moved = true;
     }
 
     /// Goes into an entry that is a folder, or takes it if it is a file.
@@ -182,10 +189,7 @@ impl Files {
         let path = complete(&self.folder, std::env::home_dir().as_deref(), text);
         if path.is_dir() {
             if self.go(&path) {
-                self.text = match (self.purpose, &self.present) {
-                    (Purpose::Save, Some(file)) => Source::File(file.clone()).name(),
-                    _ => String::new(),
-                };
+                self.text = self.suggestion.clone();
             }
             return Answer::Ask;
         }
@@ -212,6 +216,10 @@ impl Files {
                 let path = with_ending(&path);
                 if path.is_dir() {
                     self.error = Some(format!("{} is a folder", path.display()));
+                    return Answer::Ask;
+                }
+                if let Some(folder) = path.parent().filter(|folder| !folder.is_dir()) {
+                    self.error = Some(format!("there is no folder {}", folder.display()));
                     return Answer::Ask;
                 }
                 let own = self.present.as_deref().is_some_and(|present| settled(present) == settled(&path));
@@ -381,6 +389,15 @@ mod tests {
         assert_eq!(files.submit(), Answer::Ask, "asked again");
         assert_eq!(files.submit(), Answer::Ask, "for as long as nobody answers");
         assert_eq!(files.replace(), Answer::Save(folder.path().join("A.TOML")), "and told to");
+        files.text = "nowhere/new".into();
+        files.edited();
+        assert_eq!(files.submit(), Answer::Ask, "where there is no folder");
+        assert!(files.error.as_ref().is_some_and(|e| e.contains("nowhere")), "it says so: {:?}", files.error);
+        files.text = "../".into();
+        files.submit();
+        assert_eq!(files.text, "b.toml", "in another folder the name is suggested again");
+        files.go(folder.path());
+        files.text = "A.TOML".into();
         files.choose(1);
         assert_eq!(files.text, "A.TOML", "a folder does not change the name");
         assert_eq!(files.submit(), Answer::Ask, "but is gone into");

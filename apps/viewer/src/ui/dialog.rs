@@ -11,7 +11,7 @@ pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 110, 90);
 /// Round what a dialog says, points.
 const MARGIN: i8 = 16;
 /// Between a dialog and the window's edge, points.
-const DISTANCE: f32 = 12.0;
+const DISTANCE: f32 = 8.0;
 
 /// Shows the dialog that is open, if there is one.
 pub(crate) fn show(context: &Context, model: &mut Model, seen: &mut Seen) {
@@ -41,13 +41,14 @@ pub(crate) fn modal<T>(
     content: impl FnOnce(&mut Ui) -> T,
 ) -> ModalResponse<T> {
     let frame = Frame::window(&context.global_style()).inner_margin(Margin::same(MARGIN));
-    Modal::new(Id::unique(title)).frame(frame).backdrop_color(Color32::from_black_alpha(140)).show(
-        context,
-        |ui| {
-            ui.set_width(width.min(room(context).x));
-            content(ui)
-        },
-    )
+    let id = Id::unique(title);
+    let room = vec2(width.min(room(context).x), room(context).y);
+    let area = Modal::default_area(id).default_size(room);
+    let modal = Modal::new(id).area(area).frame(frame).backdrop_color(Color32::from_black_alpha(140));
+    modal.show(context, |ui| {
+        ui.set_max_width(room.x);
+        content(ui)
+    })
 }
 
 /// The title of a dialog.

@@ -3,8 +3,8 @@
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
-    Align2, Color32, Context, FontId, Id, Key, Label, Modifiers, Rect, RichText, Role, ScrollArea, Sense,
-    Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, Context, FontId, Id, Key, Label, Layout, Modifiers, Rect, RichText, Role,
+    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::style::ACCENT;
@@ -43,6 +43,7 @@ pub(crate) fn show(context: &Context, model: &mut Model, seen: &mut Seen, purpos
     };
     let mut cancelled = false;
     let answer = dialog::modal(context, name, 560.0, |ui| {
+        ui.set_min_width(ui.available_width());
         dialog::title(ui, name);
         folder(ui, files);
         let entered = list(ui, files);
@@ -65,7 +66,7 @@ pub(crate) fn show(context: &Context, model: &mut Model, seen: &mut Seen, purpos
                 }
                 let replace = ui.button(RichText::new("Replace").color(dialog::ERROR));
                 let question = Label::new(format!("{name} is there already. Replace it?")).truncate();
-                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| ui.add(question));
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| ui.add(question));
                 if replace.clicked() { files.replace() } else { Answer::Ask }
             }
             None => {
@@ -148,8 +149,7 @@ fn list(ui: &mut Ui, files: &mut Files) -> Answer {
         ui.spacing_mut().item_spacing.y = 0.0;
         // A folder begins at its top.
         let area = ScrollArea::vertical().id_salt(&files.folder).auto_shrink(false);
-        let moved = ui.memory(|memory| memory.data.get_temp(Id::unique("moved")).unwrap_or(false));
-        ui.memory_mut(|memory| memory.data.remove::<bool>(Id::unique("moved")));
+        let moved = std::mem::take(&mut files.moved);
         area.show_rows(ui, ROW, files.entries.len(), |ui, range| {
             if let Some(chosen) = files.chosen.filter(|_| moved) {
                 let top = ui.max_rect().top() + ROW * (chosen as f32 - range.start as f32);
@@ -184,7 +184,7 @@ fn row(ui: &mut Ui, files: &mut Files, index: usize) -> Option<Answer> {
         painter.rect_stroke(rect, 3.0, Stroke::new(1.0, ACCENT), StrokeKind::Inside);
     }
     icon(&painter, pos2(rect.left() + 15.0, rect.center().y), entry.is_folder);
-    let color = if chosen { visuals.strong_text_color() } else { visuals.text_color() };
+    let color = if chosen || response.hovered() { visuals.strong_text_color() } else { visuals.text_color() };
     let job = egui::text::LayoutJob::simple_singleline(entry.name.clone(), FontId::proportional(13.0), color);
     let job = egui::text::LayoutJob {
         wrap: egui::text::TextWrapping::truncate_at_width(rect.width() - 38.0),
@@ -227,13 +227,13 @@ fn path(ui: &mut Ui, files: &mut Files, begins: bool) -> Answer {
         let step = if arrow(Key::ArrowDown) { Some(true) } else { arrow(Key::ArrowUp).then_some(false) };
         if let Some(forward) = step {
             files.step(forward);
-            ui.memory_mut(|memory| memory.data.insert_temp(Id::unique("moved"), true));
             let end = files.text.chars().count();
             select(ui, id, end, end);
         }
     }
     let mut answer = Answer::Ask;
-    ui.horizontal(|ui| {
+    let size = vec2(ui.available_width(), 24.0);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         let label = ui.label("Path");
         let edit = TextEdit::singleline(&mut files.text)
             .id(id)
@@ -251,9 +251,10 @@ fn path(ui: &mut Ui, files: &mut Files, begins: bool) -> Answer {
         }
         if response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
             answer = files.submit();
-            if files.replace.is_none() {
-                response.request_focus();
-            }
+        }
+        // Whatever had the keys before is gone.
+        if files.replace.is_none() && ui.memory(|memory| memory.focused().is_none()) {
+            response.request_focus();
         }
     });
     answer

@@ -124,7 +124,8 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
             .show(root, |ui| panel::show(ui, model, seen));
     }
     if model.settings.timing {
-        let panel = Panel::bottom("timing").resizable(true).default_size(190.0).size_range(120.0..=420.0);
+        let most = (0.6 * root.available_height()).max(90.0);
+        let panel = Panel::bottom("timing").resizable(true).default_size(190.0).size_range(90.0..=most);
         panel.show(root, |ui| timing::show(ui, model, seen));
     }
     let picture =

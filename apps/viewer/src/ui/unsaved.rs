@@ -14,6 +14,7 @@ pub(crate) fn show(context: &Context, model: &mut Model, then: &Then) {
         Then::Open => "another file is opened",
     };
     dialog::modal(context, "Unsaved changes", 420.0, |ui| {
+        ui.set_min_width(ui.available_width());
         dialog::title(ui, "Unsaved changes");
         ui.label(format!("The changes to {name} are lost unless they are saved before {before}."));
         dialog::buttons(ui, |ui| {
