@@ -12,6 +12,7 @@ mod model;
 mod reference;
 mod remembered;
 mod report;
+mod running;
 mod screenshot;
 mod teach;
 mod ui;

@@ -1,5 +1,7 @@
 //! What keys and menus do to the model.
 
+use antumbra::glam::DVec3;
+
 use super::*;
 use command::PaperShape;
 
