@@ -119,6 +119,9 @@ impl Timing {
 
     /// Takes note of a frame, and goes on to the next technique where this one was measured enough.
     pub(crate) fn note(&mut self, frame: Frame<'_>, settings: &mut Settings, clock: &mut Clock) {
+        if !settings.timing {
+            return self.stop(settings, clock);
+        }
         let Frame { size, lights, objects, sides } = frame;
         let conditions = Conditions { size, lights, objects, antialiasing: settings.antialiasing };
         if self.conditions != Some(conditions) {
@@ -132,7 +135,7 @@ impl Timing {
             }
         }
         let Some((way, ..)) = self.measuring() else { return };
-        if !settings.timing || settings.layout != Layout::Single || settings.ways[0] != way {
+        if settings.layout != Layout::Single || settings.ways[0] != way {
             // Somebody chose something else meanwhile.
             return self.stop(settings, clock);
         }
@@ -281,6 +284,10 @@ mod tests {
         assert_eq!(track.frames.front(), Some(&[1.0, 32.0]), "the oldest are forgotten");
         assert_eq!(track.medians(), Some([1.0, 91.5]), "of those that are left");
         bench.size = [641, 480];
+        bench.settings.timing = false;
+        bench.frame([1.0, 2.0]);
+        assert_eq!(bench.timing.tracks()[0].frames.len(), MOST_FRAMES, "while nobody looks nothing changes");
+        bench.settings.timing = true;
         bench.frame([1.0, 2.0]);
         assert!(bench.timing.tracks()[0].frames.is_empty(), "another size is another measurement");
     }
