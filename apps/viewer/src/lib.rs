@@ -12,6 +12,7 @@ mod model;
 mod reference;
 mod remembered;
 mod report;
+mod running;
 mod screenshot;
 mod teach;
 mod ui;
@@ -27,10 +28,12 @@ use model::document::{Document, Source};
 /// What to start with.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The scene file; without one, what was looked at last, or else the first of the gallery.
+    /// The scene file; without one, what was looked at last, or else one of the gallery.
     pub scene: Option<PathBuf>,
     /// Scenes that need no file.
     pub gallery: Vec<GalleryScene>,
+    /// The name of the one that the first start shows; else it is the gallery's first.
+    pub first: Option<String>,
     /// How shadows are found, as on the command line: `map:size=512`, `analytic+samples:16`, `raytraced`, `none`.
     pub technique: Option<String>,
     /// Size of the window, in points of the interface.

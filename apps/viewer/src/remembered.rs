@@ -23,14 +23,24 @@ pub(crate) struct Remembered {
     file: Option<PathBuf>,
     /// Its name in the gallery, if it came from there.
     gallery: Option<String>,
-    /// Where the eye was: position, target, up; and the field of view, radians.
-    camera: Option<([f64; 3], [f64; 3], [f64; 3], f64)>,
+    /// Where the eye was.
+    camera: Option<Eye>,
     /// The scene's time.
     clock: Clock,
     /// Size of the window in points, and whether it filled the screen.
     pub(crate) size: Option<[u32; 2]>,
     /// See `size`.
     pub(crate) maximized: bool,
+}
+
+/// A camera.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Eye {
+    eye: [f64; 3],
+    target: [f64; 3],
+    up: [f64; 3],
+    /// Radians.
+    fov_y: f64,
 }
 
 /// Where it is kept; `None` where the system says no place.
@@ -74,7 +84,8 @@ impl Remembered {
             Source::Gallery(name) => (None, Some(name.clone())),
         };
         let Camera { eye, target, up, fov_y } = model.scene().camera;
-        let camera = Some((eye.to_array(), target.to_array(), up.to_array(), fov_y));
+        let camera = Eye { eye: eye.to_array(), target: target.to_array(), up: up.to_array(), fov_y };
+        let camera = Some(camera);
         Self { settings: model.settings.clone(), file, gallery, camera, clock: model.clock, size, maximized }
     }
 
@@ -85,7 +96,7 @@ impl Remembered {
 
     /// Puts eye and time back where they were.
     pub(crate) fn restore(&self, model: &mut Model) {
-        if let Some((eye, target, up, fov_y)) = self.camera {
+        if let Some(Eye { eye, target, up, fov_y }) = self.camera {
             let [eye, target, up] = [eye, target, up].map(DVec3::from_array);
             let apart = (target - eye).normalize_or_zero().cross(up.normalize_or_zero()).length();
             if eye.is_finite() && target.is_finite() && apart > 1e-5 && (0.001..3.13).contains(&fov_y) {
@@ -134,7 +145,10 @@ mod tests {
         let path = folder.path().join("viewer.json");
         std::fs::write(&path, "{ \"settings\": 3 }").expect("written");
         assert_eq!(Remembered::read(&path), None, "not what it is");
-        let bad = Remembered { camera: Some(([0.0; 3], [0.0; 3], [0.0; 3], 1.0)), ..Remembered::default() };
+        let bad = Remembered {
+            camera: Some(Eye { eye: [0.0; 3], target: [0.0; 3], up: [0.0; 3], fov_y: 1.0 }),
+            ..Remembered::default()
+        };
         let mut model = model();
         let before = model.scene().camera;
         bad.restore(&mut model);

@@ -126,6 +126,18 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
             })
         })
         .collect();
+    let timing: Vec<Value> = model
+        .timing
+        .tracks()
+        .iter()
+        .filter_map(|track| {
+            let [plain, shadows] = track.medians()?;
+            let way = track.way.to_string();
+            Some(
+                json!({ "way": way, "plain_ms": plain, "shadows_ms": shadows, "frames": track.frames.len() }),
+            )
+        })
+        .collect();
     json!({
         "scene": model.document.source().name(),
         "modified": model.document.is_modified(),
@@ -160,6 +172,8 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
             "notes": seen.lesson.notes,
             "map": seen.map.as_ref().map(|map| json!({ "caption": map.caption, "size": map.size })),
         },
+        "timing": timing,
+        "measuring": model.timing.measuring().map(|(way, ..)| way.to_string()),
         "controls": seen.controls,
     })
 }

@@ -44,6 +44,8 @@ pub(crate) struct View<'a> {
     pub(crate) traced: Option<&'a Traced>,
     /// Whether to measure, at the cost of waiting for the driver.
     pub(crate) measure: bool,
+    /// Whether to draw anew what is still good, to measure it again.
+    pub(crate) redraw: bool,
 }
 
 /// What became of one side.
@@ -214,7 +216,8 @@ impl Canvas {
             return Ok(Side { fresh, ..slot.side.clone() });
         }
         let slot = &self.slots[index];
-        if slot.key.as_ref() == Some(&key) && !(view.measure && slot.side.milliseconds.is_none()) {
+        let good = slot.key.as_ref() == Some(&key) && !view.redraw;
+        if good && !(view.measure && slot.side.milliseconds.is_none()) {
             return Ok(Side { fresh: false, ..slot.side.clone() });
         }
         let side = self.draw_way(index, way, view, size)?;

@@ -1,21 +1,25 @@
 //! What the program knows, apart from windows and OpenGL.
 
 pub(crate) mod camera;
+mod changes;
 pub(crate) mod clock;
+mod collection;
 pub(crate) mod command;
 pub(crate) mod document;
 pub(crate) mod edit;
+pub(crate) mod files;
 pub(crate) mod pick;
+mod scenes;
 pub(crate) mod settings;
+pub(crate) mod timing;
 pub(crate) mod way;
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use antumbra::glam::DVec3;
-use antumbra::technique::composite::{Component, components};
-use antumbra_scene::{Camera, Light, Motion, Scene};
+use antumbra::technique::composite::Component;
+use antumbra_scene::{Camera, Motion, Scene};
 
 use crate::GalleryScene;
 use clock::Clock;
@@ -23,6 +27,7 @@ use command::{Command, STEP};
 use document::{Document, Source};
 use pick::Item;
 use settings::{Layout, Settings};
+use timing::Timing;
 use way::Way;
 
 /// What the window is asked to do.
@@ -101,6 +106,10 @@ pub(crate) struct Model {
     pub(crate) parked: Parked,
     /// What is asked.
     pub(crate) dialog: Option<Dialog>,
+    /// What is to be done after "Save as".
+    pub(crate) after_save: Option<Then>,
+    /// How long frames take.
+    pub(crate) timing: Timing,
     /// What was said last.
     pub(crate) message: Option<Message>,
     /// For the window.
@@ -127,6 +136,8 @@ impl Model {
             components: Vec::new(),
             parked: Parked::default(),
             dialog: None,
+            after_save: None,
+            timing: Timing::default(),
             message: None,
             requests: Vec::new(),
             gallery,
@@ -195,76 +206,31 @@ impl Model {
             Command::Open => self.before(Then::Open),
             Command::NextScene(forward) => self.next_scene(forward),
             Command::Save => match self.document.source().clone() {
-                Source::File(path) => self.save(&path),
-                Source::Gallery(_) => self.dialog = Some(Dialog::SaveAs),
+                Source::File(path) => drop(self.save(&path)),
+                Source::Gallery(_) => self.save_as(None),
             },
-            Command::SaveAs => self.dialog = Some(Dialog::SaveAs),
+            Command::SaveAs => self.save_as(None),
             Command::Screenshot => self.requests.push(Request::Screenshot(screenshot_path())),
             Command::Help => {
                 self.dialog = if self.dialog == Some(Dialog::Help) { None } else { Some(Dialog::Help) };
             }
             Command::Panel => self.settings.panel = !self.settings.panel,
-            Command::Timing => self.settings.timing = !self.settings.timing,
+            Command::Timing => {
+                self.stop_measuring();
+                self.settings.timing = !self.settings.timing;
+            }
             Command::Fullscreen => self.requests.push(Request::Fullscreen),
             Command::Escape => {
-                if self.dialog.take().is_none() {
+                if self.dialog.is_some() {
+                    self.close();
+                } else if self.timing.measuring().is_some() {
+                    self.stop_measuring();
+                } else {
                     self.chosen = None;
                     self.component = None;
                 }
             }
             Command::Quit => self.before(Then::Quit),
-        }
-    }
-
-    /// Does something that loses changes, after asking.
-    pub(crate) fn before(&mut self, then: Then) {
-        if self.document.is_modified() {
-            self.dialog = Some(Dialog::Unsaved(then));
-        } else {
-            self.go_on(then);
-        }
-    }
-
-    /// Does it without asking.
-    pub(crate) fn go_on(&mut self, then: Then) {
-        self.dialog = None;
-        match then {
-            Then::Quit => self.requests.push(Request::Quit),
-            Then::Show(source) => self.show(source),
-            Then::Open => self.dialog = Some(Dialog::Open),
-        }
-    }
-
-    /// Looks at another scene; the old one stays where that cannot be read.
-    pub(crate) fn show(&mut self, source: Source) {
-        let document = match &source {
-            Source::File(path) => Document::load(path).map_err(|error| error.to_string()),
-            Source::Gallery(name) => match self.gallery.iter().find(|scene| scene.name == name) {
-                Some(entry) => entry.document().map_err(|error| error.to_string()),
-                None => Err(format!("the gallery has no scene {name}")),
-            },
-        };
-        match document {
-            Ok(document) => {
-                self.first_camera = document.scene().camera;
-                self.document = document;
-                self.clock.time = 0.0;
-                self.light = 0;
-                self.component = None;
-                self.chosen = None;
-                self.components.clear();
-                self.parked.clear();
-                self.message = None;
-            }
-            Err(error) => self.complain(error),
-        }
-    }
-
-    /// Writes the scene to a file.
-    pub(crate) fn save(&mut self, path: &Path) {
-        match self.document.save(path) {
-            Ok(()) => self.say(format!("saved {}", path.display())),
-            Err(error) => self.complain(error),
         }
     }
 
@@ -287,166 +253,6 @@ impl Model {
         }
     }
 
-    /// `G` and `H`: a component where the chosen light is a collection of them, else a light.
-    fn choose_side(&mut self, side: Side, light: usize) {
-        if self.side_components().is_empty() {
-            self.choose_light(light);
-        } else {
-            self.component = Some(side);
-            self.chosen = Some(Item::Light(self.light));
-        }
-    }
-
-    /// Where the components of the chosen light are, but for the central one; empty unless it is a collection.
-    fn side_components(&self) -> Vec<DVec3> {
-        let own: Vec<DVec3> =
-            self.components.iter().filter(|c| c.light == self.light).map(|c| c.offset).collect();
-        let (Some(count), Some(light)) = (self.settings.components(), self.scene().lights.get(self.light))
-        else {
-            return Vec::new();
-        };
-        if !own.is_empty() && antumbra_host::light(light).area != antumbra::Area::None {
-            return own;
-        }
-        let mut offsets = Vec::new();
-        components(&antumbra_host::light(light).area, count, |offset| offsets.push(offset));
-        offsets.drain(..offsets.len().min(1));
-        offsets
-    }
-
-    /// The component that is chosen, by its place among the side components, and where they are.
-    fn chosen_component(&self) -> Option<(usize, Vec<DVec3>)> {
-        let offsets = self.side_components();
-        let by_x = |a: &usize, b: &usize| offsets[*a].x.total_cmp(&offsets[*b].x);
-        let index = match self.component? {
-            Side::Left => (0..offsets.len()).min_by(by_x)?,
-            Side::Right => (0..offsets.len()).max_by(by_x)?,
-        };
-        Some((index, offsets))
-    }
-
-    /// Where the components of lights are that are drawn as collections: for marks in the picture.
-    pub(crate) fn component_positions(&self, light: &Light) -> Vec<DVec3> {
-        self.side_components().into_iter().map(|offset| light.position + offset).collect()
-    }
-
-    /// Moves the chosen light, or its chosen component.
-    pub(crate) fn move_light(&mut self, by: DVec3) {
-        let light = self.light;
-        if let Some((index, mut offsets)) = self.chosen_component() {
-            offsets[index] = edit::within(offsets[index] + by);
-            self.components.retain(|c| c.light != light);
-            self.components.extend(offsets.into_iter().map(|offset| Component { light, offset }));
-        } else if light < self.scene().lights.len() {
-            self.document.edit(("move light", light), |s| edit::move_light(&mut s.lights[light], by));
-        } else {
-            self.complain("the scene has no light; add one in the panel");
-        }
-    }
-
-    /// Moves what is held by the pointer.
-    pub(crate) fn move_item(&mut self, item: Item, by: DVec3) {
-        match item {
-            Item::Light(i) => {
-                self.document.edit(("move light", i), |s| edit::move_light(&mut s.lights[i], by))
-            }
-            Item::Object(i) => {
-                self.document.edit(("move object", i), |s| edit::move_object(&mut s.objects[i], by))
-            }
-        }
-    }
-
-    fn delete(&mut self) {
-        match self.chosen.take() {
-            Some(Item::Light(i)) if i < self.scene().lights.len() => {
-                self.document.edit(("delete", i), |s| drop(s.lights.remove(i)));
-                self.components.clear();
-                self.component = None;
-            }
-            Some(Item::Object(i)) if i < self.scene().objects.len() => {
-                self.document.edit(("delete", i), |s| drop(s.objects.remove(i)));
-            }
-            _ => self.complain("nothing is chosen"),
-        }
-        self.document.end_stroke();
-        self.stay_inside();
-    }
-
-    fn duplicate(&mut self) {
-        let scene = self.scene();
-        let step = DVec3::new(0.3, 0.0, 0.3);
-        match self.chosen {
-            Some(Item::Light(i))
-                if i < scene.lights.len() && scene.lights.len() < antumbra_scene::limits::MAX_LIGHTS =>
-            {
-                let mut light = scene.lights[i].clone();
-                light.name = scene.unique_light_name(&light.name);
-                edit::move_light(&mut light, step);
-                self.choose_after(Item::Light(scene.lights.len()), |s| s.lights.push(light));
-            }
-            Some(Item::Object(i))
-                if i < scene.objects.len() && scene.objects.len() < antumbra_scene::limits::MAX_OBJECTS =>
-            {
-                let mut object = scene.objects[i].clone();
-                object.name = scene.unique_object_name(&object.name);
-                edit::move_object(&mut object, step);
-                self.choose_after(Item::Object(scene.objects.len()), |s| s.objects.push(object));
-            }
-            _ => self.complain("nothing is chosen"),
-        }
-    }
-
-    /// Adds something and chooses it.
-    pub(crate) fn choose_after(&mut self, item: Item, add: impl FnOnce(&mut Scene)) {
-        self.document.end_stroke();
-        self.document.edit(("add", 0), add);
-        self.document.end_stroke();
-        self.choose(Some(item));
-    }
-
-    fn undo(&mut self) {
-        if !self.document.can_undo() {
-            return self.say("nothing to undo");
-        }
-        self.document.undo();
-        self.stay_inside();
-    }
-
-    fn redo(&mut self) {
-        if !self.document.can_redo() {
-            return self.say("nothing to redo");
-        }
-        self.document.redo();
-        self.stay_inside();
-    }
-
-    /// After lights or objects have come or gone.
-    fn stay_inside(&mut self) {
-        let (lights, objects) = (self.scene().lights.len(), self.scene().objects.len());
-        self.light = self.light.min(lights.saturating_sub(1));
-        self.components.retain(|c| c.light < lights);
-        self.chosen = self.chosen.filter(|item| match *item {
-            Item::Light(i) => i < lights,
-            Item::Object(i) => i < objects,
-        });
-    }
-
-    fn next_scene(&mut self, forward: bool) {
-        let count = self.gallery.len();
-        if count == 0 {
-            return self.complain("the gallery is empty");
-        }
-        let here = match self.document.source() {
-            Source::Gallery(name) => self.gallery.iter().position(|scene| scene.name == name),
-            Source::File(_) => None,
-        };
-        let next = match here {
-            Some(here) => (here + if forward { 1 } else { count - 1 }) % count,
-            None => 0,
-        };
-        self.before(Then::Show(Source::Gallery(self.gallery[next].name.to_owned())));
-    }
-
     /// Whether a frame differs from the last one although nobody did anything.
     pub(crate) fn is_moving(&self) -> bool {
         let moves = || {
@@ -457,8 +263,21 @@ impl Model {
         self.clock.playing && self.clock.speed != 0.0 && moves()
     }
 
+    /// Measures every technique, one after the other; time stands still meanwhile.
+    pub(crate) fn measure_all(&mut self) {
+        self.stop_measuring();
+        self.settings.timing = true;
+        self.timing.start(&mut self.settings, &mut self.clock);
+    }
+
+    /// Ends that, and puts back what was looked at before.
+    pub(crate) fn stop_measuring(&mut self) {
+        self.timing.stop(&mut self.settings, &mut self.clock);
+    }
+
     /// Everything as it is at first, but for the scene.
     pub(crate) fn reset_settings(&mut self) {
+        self.stop_measuring();
         self.settings = Settings::default();
         self.clock.speed = 1.0;
         self.say("settings as at first");

@@ -1,5 +1,7 @@
 //! What keys and menus do to the model.
 
+use antumbra::glam::DVec3;
+
 use super::*;
 use command::PaperShape;
 
@@ -142,6 +144,55 @@ fn what_cannot_be_shown_leaves_what_is() {
         m.message
     );
     assert_eq!(m.scene().lights.len(), 2, "the old one is still there");
+}
+
+#[test]
+fn saving_goes_on_with_what_was_to_be_done() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.toml");
+    let mut m = model();
+    m.apply(Command::MoveLight(DVec3::X));
+    m.apply(Command::Quit);
+    m.save_then(Then::Quit);
+    assert_eq!(
+        (m.dialog.clone(), m.requests.len()),
+        (Some(Dialog::SaveAs), 0),
+        "of the gallery: it asks where"
+    );
+    m.apply(Command::Escape);
+    assert_eq!((m.dialog.clone(), m.after_save.clone()), (None, None), "and forgets it");
+    m.apply(Command::SaveAs);
+    assert!(m.save_here(&path), "saved: {:?}", m.message);
+    assert_eq!(
+        (m.dialog.clone(), m.requests.len(), m.document.is_modified()),
+        (None, 0, false),
+        "and nothing else"
+    );
+    m.apply(Command::MoveLight(DVec3::X));
+    let two = Source::Gallery("two".into());
+    m.save_then(Then::Show(two.clone()));
+    assert_eq!(*m.document.source(), two, "a scene with a file is saved without asking");
+    m.apply(Command::MoveLight(DVec3::X));
+    m.save_then(Then::Quit);
+    assert!(!m.save_here(&folder.path().join("no folder/x.toml")), "where it cannot be");
+    assert!(m.requests.is_empty() && m.dialog == Some(Dialog::SaveAs), "it asks on");
+    assert!(m.save_here(&path), "where it can be: {:?}", m.message);
+    assert_eq!(m.requests, [Request::Quit], "it ends");
+}
+
+#[test]
+fn measuring_is_stopped_by_escape_and_by_another_scene() {
+    let mut m = model();
+    let ways = m.settings.ways;
+    for stop in [Command::Escape, Command::NextScene(true), Command::Timing] {
+        m.settings.layout = Layout::Split;
+        m.measure_all();
+        assert!(m.timing.measuring().is_some() && m.settings.timing, "it is under way");
+        assert_eq!(m.settings.layout, Layout::Single, "one at a time");
+        m.apply(stop);
+        assert!(m.timing.measuring().is_none(), "{stop:?} ends it");
+        assert_eq!((m.settings.layout, m.settings.ways), (Layout::Split, ways), "as before");
+    }
 }
 
 #[test]

@@ -47,13 +47,18 @@ fn same(traced: &Traced, expected: &[[f32; 3]]) -> bool {
         && traced.pixels.iter().flatten().zip(expected.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-6)
 }
 
+/// Whether there is nothing more to come for what was last asked.
+fn finished(traced: &Traced) -> bool {
+    !traced.stale && traced.samples >= traced.target
+}
+
 #[test]
 fn it_ends_with_what_the_tracer_renders() {
     let mut refinement = Refinement::with_target(8, || {});
     assert!(refinement.latest().is_none(), "nothing has been asked for");
     for (scene, time) in [(scene(0.0), 0.0), (scene(1.0), 0.0), (scene(1.0), 3.0)] {
         refinement.request(scene.clone(), time, 61, 33);
-        let traced = wait(&mut refinement, "the end", Traced::finished);
+        let traced = wait(&mut refinement, "the end", finished);
         assert_eq!((traced.width, traced.height, traced.samples, traced.target), (61, 33, 8, 8));
         let expected = Tracer::new(&scene, time).render(61, 33, 8, &|_, _| {});
         assert!(same(&traced, &expected), "another picture at {time}");
@@ -145,7 +150,7 @@ fn it_sleeps_when_done() {
     });
     let scene = scene(0.0);
     refinement.request(scene.clone(), 0.0, 16, 16);
-    let done = wait(&mut refinement, "the end", Traced::finished);
+    let done = wait(&mut refinement, "the end", finished);
     std::thread::sleep(Duration::from_millis(50));
     let turns = refinement.shared.turns.load(Ordering::Relaxed);
     for _ in 0..100 {
@@ -170,7 +175,7 @@ fn it_survives_a_panic() {
         std::thread::yield_now();
     }
     refinement.request(scene(1.0), 0.0, 16, 16);
-    wait(&mut refinement, "the end of the next", Traced::finished);
+    wait(&mut refinement, "the end of the next", finished);
 }
 
 #[test]
@@ -180,6 +185,6 @@ fn without_pixels_there_is_nothing_new() {
         refinement.request(scene(0.0), f64::NAN, width, height);
     }
     refinement.request(scene(0.0), f64::NAN, 1, 1);
-    let traced = wait(&mut refinement, "one pixel at no time", Traced::finished);
+    let traced = wait(&mut refinement, "one pixel at no time", finished);
     assert_eq!(traced.pixels.len(), 1);
 }

@@ -7,7 +7,6 @@ use antumbra_reference::{Ray, Tracer};
 use antumbra_scene::{Moment, Scene};
 use glam::DVec3;
 
-use super::volumes::Reach;
 use super::{Drawing, Fact, Line, LineKind, Situation};
 
 /// A floor, a light (the keys after its name) and an object (the keys after its name).
@@ -36,7 +35,7 @@ fn all(scene: &Scene) -> (Drawing, Vec<Fact>) {
         let mut drawing = Drawing::default();
         situation.outlines(0, 1, &mut drawing);
         situation.tangent_rays(0, 1, 24, &mut drawing);
-        situation.volume(0, 1, Reach::Receivers(3.0), &mut drawing);
+        situation.volume(0, 1, 3.0, &mut drawing);
         (drawing, situation.facts(0, 1))
     })
 }
@@ -328,8 +327,7 @@ fn every_scene_at_many_times() {
                     let points: usize = drawing.lines.iter().map(|line| line.points.len()).sum();
                     let receivers = situation.receivers.len();
                     assert!(points <= receivers * 6000, "{what}: {points} points on {receivers} receivers");
-                    situation.volume(light, primitive, Reach::Distance(5.0), &mut drawing);
-                    situation.volume(light, primitive, Reach::Receivers(5.0), &mut drawing);
+                    situation.volume(light, primitive, 5.0, &mut drawing);
                     check(&drawing, &facts, &what);
                     seen[0] += drawing.lines.len();
                     seen[1] += facts.len();
@@ -377,7 +375,7 @@ fn poses_that_make_no_sense() {
                         situation.tangent_rays(0, 1, 8, &mut drawing);
                         situation.tangent_rays(0, 1, 0, &mut drawing);
                         for distance in [1.0, 0.0, -1.0, f64::NAN, f64::INFINITY, 1e300] {
-                            situation.volume(0, 1, Reach::Receivers(distance), &mut drawing);
+                            situation.volume(0, 1, distance, &mut drawing);
                         }
                         let facts = situation.facts(0, 1);
                         check(&drawing, &facts, &format!("{shape} at {thing}, {kind} at {light}"));
@@ -387,7 +385,7 @@ fn poses_that_make_no_sense() {
                         for (light, primitive) in [(1, 1), (0, 2), (usize::MAX, usize::MAX)] {
                             situation.outlines(light, primitive, &mut drawing);
                             situation.tangent_rays(light, primitive, 8, &mut drawing);
-                            situation.volume(light, primitive, Reach::Distance(1.0), &mut drawing);
+                            situation.volume(light, primitive, 1.0, &mut drawing);
                             assert!(situation.facts(light, primitive).is_empty());
                         }
                         assert_eq!(drawing, before);

@@ -61,7 +61,9 @@ fn add(model: &mut Model, kind: &str) {
     if count >= antumbra_scene::limits::MAX_LIGHTS {
         return model.complain(format!("a scene has at most {count} lights"));
     }
-    model.choose_after(Item::Light(count), |scene| drop(edit::add_light(scene, kind, distance)));
+    model.choose_after(Item::Light(count), |scene| {
+        edit::add_light(scene, kind, distance);
+    });
 }
 
 fn editor(ui: &mut Ui, model: &mut Model, i: usize, mut light: Light) {

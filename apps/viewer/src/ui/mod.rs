@@ -1,6 +1,9 @@
 //! The interface: what is round the picture and over it, and what pointer and keys do.
 
+mod dialog;
 mod fields;
+mod files;
+mod help;
 mod keys;
 mod lights;
 mod menu;
@@ -11,12 +14,15 @@ mod picture;
 mod status;
 pub(crate) mod style;
 pub(crate) mod teaching;
+pub(crate) mod timing;
+mod unsaved;
 
 use antumbra_host::ContextInfo;
 use antumbra_scene::Motion;
 use egui::{CentralPanel, Frame, Panel, Rect, Ui};
 
 use crate::canvas::Side;
+use crate::model::files::Files;
 use crate::model::pick::Grip;
 use crate::model::settings::Layout;
 use crate::model::{Model, Parked};
@@ -42,6 +48,8 @@ pub(crate) struct Seen {
     pub(crate) renderer: String,
     /// Which clock frame times are of.
     pub(crate) clock: &'static str,
+    /// The dialog for a file, while there is one.
+    files: Option<Files>,
     /// What the pointer drags.
     grip: Option<Grip>,
     /// Whether it drags the divider.
@@ -61,6 +69,7 @@ impl Seen {
             map: None,
             renderer: info.renderer.clone(),
             clock,
+            files: None,
             grip: None,
             dividing: false,
         }
@@ -72,6 +81,12 @@ impl Seen {
         if sides.iter().any(|side| side.fresh) {
             self.error = None;
         }
+    }
+
+    /// Whether a frame is to be drawn to measure it, although nothing in it changed.
+    pub(crate) fn wants_frame(&self, model: &Model) -> bool {
+        let refused = [0, 1].map(|i| self.sides[i].objection.is_some());
+        model.timing.measuring().is_some() || model.timing.wants_frame(&model.settings, refused)
     }
 
     /// Whether the error of one side against the other is asked for and not known.
@@ -97,6 +112,7 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     if !context.input(|input| input.pointer.any_down() || !input.keys_down.is_empty()) {
         model.document.end_stroke();
     }
+    files::escape(&context, seen);
     keys::press(&context, model);
     keys::drop_files(&context, model);
     Panel::top("menu").show(root, |ui| menu::bar(ui, model));
@@ -107,7 +123,15 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
             .size_range(260.0..=480.0)
             .show(root, |ui| panel::show(ui, model, seen));
     }
-    CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner
+    if model.settings.timing {
+        let most = (0.6 * root.available_height()).max(90.0);
+        let panel = Panel::bottom("timing").resizable(true).default_size(190.0).size_range(90.0..=most);
+        panel.show(root, |ui| timing::show(ui, model, seen));
+    }
+    let picture =
+        CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner;
+    dialog::show(&context, model, seen);
+    picture
 }
 
 /// Whether something moves: a box to tick. A motion that is taken away comes back when it is ticked again.

@@ -64,7 +64,9 @@ fn add(model: &mut Model, kind: &str) {
     if count >= antumbra_scene::limits::MAX_OBJECTS {
         return model.complain(format!("a scene has at most {count} objects"));
     }
-    model.choose_after(Item::Object(count), |scene| drop(edit::add_object(scene, kind, shape(kind))));
+    model.choose_after(Item::Object(count), |scene| {
+        edit::add_object(scene, kind, shape(kind));
+    });
 }
 
 fn editor(ui: &mut Ui, model: &mut Model, i: usize, mut object: Object) {

@@ -12,7 +12,6 @@ use crate::canvas::map_view::{CROSS, TEXTURE};
 use crate::model::Model;
 use crate::model::pick::Item;
 use crate::model::settings::Teaching;
-use crate::teach::volumes::Reach;
 use crate::teach::{Drawing, Fact, LineKind, Situation};
 
 /// Tangent rays of a shadow.
@@ -97,7 +96,7 @@ impl Lesson {
                 situation.tangent_rays(light, primitive, RAYS, &mut drawing);
             }
             if teaching.volumes {
-                situation.volume(light, primitive, Reach::Receivers(2.0 * radius), &mut drawing);
+                situation.volume(light, primitive, 2.0 * radius, &mut drawing);
             }
             if teaching.conics && self.facts.len() < MOST_FACTS {
                 self.facts.extend(situation.facts(light, primitive));

@@ -211,7 +211,7 @@ pub(crate) struct PictureArgs {
 #[cfg(feature = "viewer")]
 #[derive(Debug, Default, clap::Args)]
 pub(crate) struct ViewArgs {
-    /// The scene file; without one, what was looked at last, or else the first scene of the gallery
+    /// The scene file; without one, what was looked at last, or else one of the gallery
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
     /// How shadows are found at first: a technique with options, as for `antumbra render`

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use antumbra_scene::{LightKind, Scene, Shape};
+use antumbra_scene::Scene;
 use serde::Serialize;
 
 use crate::args::CheckArgs;

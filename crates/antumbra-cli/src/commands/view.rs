@@ -6,6 +6,9 @@ use crate::args::ViewArgs;
 use crate::error::CliError;
 use crate::gallery::GALLERY;
 
+/// What the first start shows: several lights, all of which move.
+const FIRST: &str = "coloured-lights";
+
 /// Opens the viewer and returns when its window is closed.
 ///
 /// # Errors
@@ -14,6 +17,7 @@ pub(crate) fn run(arguments: &ViewArgs) -> Result<(), CliError> {
     let options = Options {
         scene: arguments.scene.clone(),
         gallery: GALLERY.iter().map(|entry| GalleryScene { name: entry.name, text: entry.text }).collect(),
+        first: Some(FIRST.to_owned()),
         technique: arguments.technique.map(|technique| technique.to_string()),
         size: arguments.size.map(|size| [size.width, size.height]),
         fresh: arguments.fresh,

@@ -13,6 +13,7 @@ mod panel;
 mod screen;
 mod shadows;
 mod techniques;
+mod tour;
 mod viewer;
 mod window;
 

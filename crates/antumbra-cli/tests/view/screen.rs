@@ -31,7 +31,7 @@ pub(crate) struct Screen {
 /// What a window showed.
 pub(crate) struct Shot {
     pub(crate) size: [usize; 2],
-    rgb: Vec<[u8; 3]>,
+    pub(crate) rgb: Vec<[u8; 3]>,
 }
 
 impl Shot {
