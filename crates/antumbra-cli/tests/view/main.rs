@@ -6,6 +6,7 @@
 #![cfg(all(feature = "viewer", target_os = "linux"))]
 
 mod controls;
+mod dialogs;
 mod files;
 mod keys;
 mod mouse;

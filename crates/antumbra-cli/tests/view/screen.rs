@@ -10,8 +10,8 @@ use x11rb::CURRENT_TIME;
 use x11rb::connection::Connection;
 use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
-    self, AtomEnum, ChangeWindowAttributesAux, ConfigureWindowAux, ConnectionExt as _, CreateWindowAux,
-    EventMask, ImageFormat, InputFocus, MapState, Window, WindowClass,
+    self, AtomEnum, AutoRepeatMode, ChangeKeyboardControlAux, ChangeWindowAttributesAux, ConfigureWindowAux,
+    ConnectionExt as _, CreateWindowAux, EventMask, ImageFormat, InputFocus, MapState, Window, WindowClass,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -73,7 +73,8 @@ impl Screen {
     pub(crate) fn start() -> Option<Self> {
         let size = format!("{}x{}x24", SCREEN[0], SCREEN[1]);
         let started = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", &size, "-nolisten", "tcp", "-noreset"])
+            // -r: a key does not repeat, however long a busy machine takes to release it.
+            .args(["-r", "-displayfd", "1", "-screen", "0", &size, "-nolisten", "tcp", "-noreset"])
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -98,6 +99,8 @@ impl Screen {
             connection.get_keyboard_mapping(low, high - low + 1).expect("sent").reply().expect("a keyboard");
         let columns = usize::from(mapping.keysyms_per_keycode).max(1);
         let keys = (low..=high).zip(mapping.keysyms.chunks(columns).map(<[u32]>::to_vec)).collect();
+        let steady = ChangeKeyboardControlAux::new().auto_repeat_mode(AutoRepeatMode::OFF);
+        connection.change_keyboard_control(&steady).expect("sent").check().expect("a keyboard");
         // Requests to a window manager, which there is none of, go to the root window: this test sees them.
         let mask = ChangeWindowAttributesAux::new().event_mask(EventMask::SUBSTRUCTURE_NOTIFY);
         connection.change_window_attributes(root, &mask).expect("sent").check().expect("the root window");
