@@ -12,8 +12,8 @@ What people and continuous integration both run.
 Usage: cargo xtask <COMMAND>
 
 Commands:
-  setup            Look for what the tests need (software OpenGL through EGL, glslangValidator); install what is
-                   missing on Debian and its kin as root or with sudo, else say what to install
+  setup            Look for what the tests need (software OpenGL through EGL, Xvfb, glslangValidator); install
+                   what is missing on Debian and its kin as root or with sudo, else say what to install
   test [ARGS]      setup, then every test in the workspace; ARGS go to `cargo test`, such as `-p antumbra-scene`
                    or `-- name_of_a_test`
   ci               What continuous integration runs: formatting, lints, documentation, test
@@ -21,9 +21,10 @@ Commands:
                    each test (default 1000000, minutes) and a fiftieth of that of meshes
   help             This text
 
-Tests draw with the software renderer of Mesa (llvmpipe), so that they give the same everywhere and need no display.
+Tests draw with the software renderer of Mesa (llvmpipe), so that they give the same everywhere and need no display;
+those of the viewer bring one of their own (Xvfb).
 To run them on this machine's own driver instead, set ANTUMBRA_HARDWARE=1. Under `cargo xtask test` a missing OpenGL
-is a failure; under a bare `cargo test` those tests say that they were skipped.
+or Xvfb is a failure; under a bare `cargo test` those tests say that they were skipped.
 ";
 
 fn main() -> ExitCode {

@@ -7,13 +7,13 @@ use std::process::{Command, Stdio};
 struct Need {
     /// What it is for.
     what: &'static str,
-    /// The Debian package that has it.
+    /// The Debian package that has it, or several with blanks between them.
     package: &'static str,
     /// Whether it is there.
     found: fn() -> bool,
 }
 
-const NEEDS: [Need; 5] = [
+const NEEDS: [Need; 9] = [
     Need {
         what: "libEGL.so.1: OpenGL without a window",
         package: "libegl1",
@@ -31,6 +31,23 @@ const NEEDS: [Need; 5] = [
         what: "glslangValidator: checks the shaders against the GLSL standard",
         package: "glslang-tools",
         found: || in_path("glslangValidator"),
+    },
+    Need { what: "Xvfb: a display for the tests of the viewer", package: "xvfb", found: || in_path("Xvfb") },
+    // What the viewer loads when it opens a window in X11.
+    Need {
+        what: "libX11-xcb.so.1: windows, keys and mouse",
+        package: "libx11-xcb1",
+        found: || library("libX11.so.6") && library("libX11-xcb.so.1"),
+    },
+    Need {
+        what: "libXcursor.so.1 and libXi.so.6: pointers",
+        package: "libxcursor1 libxi6",
+        found: || library("libXcursor.so.1") && library("libXi.so.6"),
+    },
+    Need {
+        what: "libxkbcommon-x11.so.0: keyboards",
+        package: "libxkbcommon-x11-0",
+        found: || library("libxkbcommon.so.0") && library("libxkbcommon-x11.so.0"),
     },
     Need {
         what: "models in glTF 2.0 and OBJ: real files for the mesh readers",
@@ -52,7 +69,7 @@ pub(crate) fn run() -> Result<(), String> {
     for need in &missing {
         println!("setup: missing {} (Debian package {})", need.what, need.package);
     }
-    let packages: Vec<&str> = missing.iter().map(|need| need.package).collect();
+    let packages: Vec<&str> = missing.iter().flat_map(|need| need.package.split(' ')).collect();
     match installer() {
         Some(prefix) => install(&prefix, &packages)?,
         None => return Err(advice(&packages)),
@@ -109,11 +126,13 @@ fn advice(packages: &[&str]) -> String {
     format!(
         "install what is missing, then run this again:\n  \
          Debian, Ubuntu:  sudo apt-get update && sudo apt-get install {}\n  \
-         Fedora:          sudo dnf install mesa-libEGL mesa-dri-drivers libglvnd-gles glslang\n  \
-         Arch:            sudo pacman -S mesa libglvnd glslang\n\
+         Fedora:          sudo dnf install mesa-libEGL mesa-dri-drivers libglvnd-gles glslang \\\n  \
+                           xorg-x11-server-Xvfb libX11-xcb libXcursor libXi libxkbcommon-x11\n  \
+         Arch:            sudo pacman -S mesa libglvnd glslang xorg-server-xvfb libx11 libxcursor libxi libxkbcommon-x11\n\
          The models are the folder test/models of the Asset Importer Library's sources; where no package has them,\n\
          set ANTUMBRA_MODELS to it.\n\
-         The tests draw without a window through EGL, which macOS and Windows do not have; there, run them in a\n\
+         The tests draw without a window through EGL, and the viewer's in a window of Xvfb; macOS and Windows have\n\
+         neither: there, run them in a\n\
          Linux container.",
         packages.join(" ")
     )

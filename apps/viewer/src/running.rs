@@ -160,7 +160,7 @@ impl Running {
         self.state.handle_platform_output(&self.window.window, {
             let mut platform = output.platform_output;
             if let Some(update) = platform.accesskit_update.take().filter(|_| json) {
-                self.seen.controls = report::controls(&update, 1.0);
+                self.seen.controls = report::controls(&update, f64::from(scale));
             }
             platform
         });

@@ -72,10 +72,11 @@ impl Place {
         fs::write(self.file(name), text).expect("a temporary directory is writable");
     }
 
-    /// The program, to be run in this directory.
+    /// The program, to be run in this directory; where there is no display, so that no test opens a window on one.
     pub(crate) fn command<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_antumbra"));
         command.args(arguments).current_dir(self.path());
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         command
     }
 

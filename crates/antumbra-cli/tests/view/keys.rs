@@ -46,7 +46,7 @@ fn moves(v: &mut Viewer<'_>, key: &str, pointer: &str, by: DVec3) {
     };
     v.press_for(key, &format!("{pointer} by {by}"), near);
     let [x, y, w, h] = v.picture().map(|x| x as usize);
-    v.see(&format!("{key} moves {pointer}"), |now| match now.difference(&before.1, [x, y, w, h]) {
+    v.see(&format!("{key} moves {pointer}"), |_, now| match now.difference(&before.1, [x, y, w, h]) {
         0..50 => Err("the same as before".into()),
         _ => Ok(()),
     });
@@ -114,7 +114,7 @@ fn objects(v: &mut Viewer<'_>) {
         let before = v.shot();
         v.press_for(key, shape, |state| state["objects"][1]["shapes"] == json!([shape]));
         let [x, y, w, h] = v.picture().map(|x| x as usize);
-        v.see(shape, |now| match now.difference(&before, [x, y, w, h]) {
+        v.see(shape, |_, now| match now.difference(&before, [x, y, w, h]) {
             0..200 => Err("the same as before".into()),
             _ => Ok(()),
         });
@@ -137,9 +137,7 @@ fn time(v: &mut Viewer<'_>) {
 
 fn window(v: &mut Viewer<'_>, screen: &Screen) {
     for key in ["F1", "?"] {
-        let before = v.shot();
         v.press_for(key, "the help", |state| state["dialog"] == "help");
-        let _ = before;
         v.press_for(key, "no help", |state| state["dialog"] == Value::Null);
     }
     let width = v.picture()[2];

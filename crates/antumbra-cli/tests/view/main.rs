@@ -5,9 +5,11 @@
 //! Ten thousand frames and a hundred scenes: `cargo test --release -p antumbra-cli --test view -- --ignored`.
 #![cfg(all(feature = "viewer", target_os = "linux"))]
 
+mod controls;
 mod files;
 mod keys;
 mod mouse;
+mod panel;
 mod screen;
 mod shadows;
 mod techniques;

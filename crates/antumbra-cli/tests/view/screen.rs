@@ -1,6 +1,8 @@
 //! A display of its own, with a keyboard and a mouse that the test moves, and pictures of what is on it.
 
-use std::io::{BufRead, BufReader};
+use std::fs::File;
+use std::io::{BufRead, BufReader, BufWriter};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -51,6 +53,17 @@ impl Shot {
             (0..3).any(|c| a[c].abs_diff(b[c]) > 8)
         };
         (y..y + h).flat_map(|y| (x..x + w).map(move |x| (x, y))).filter(|&at| apart(at)).count()
+    }
+}
+
+impl Shot {
+    /// Writes it to a PNG, for whoever wonders what a test saw.
+    pub(crate) fn write(&self, path: &Path) {
+        let file = BufWriter::new(File::create(path).expect("the file can be written"));
+        let mut encoder = png::Encoder::new(file, self.size[0] as u32, self.size[1] as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        let mut writer = encoder.write_header().expect("written");
+        writer.write_image_data(self.rgb.as_flattened()).expect("written");
     }
 }
 

@@ -70,7 +70,7 @@ fn tour() {
     // Against a shadow map of few texels.
     v.press("Escape");
     v.press_for("E", "split", |state| state["settings"]["layout"] == "split");
-    v.pick(("ComboBox", "right"), "map");
+    v.pick(&[("ComboBox", "right"), ("Button", "map")]);
     v.wait("map", |state| state["settings"]["ways"][1].as_str().is_some_and(|way| way.starts_with("map")));
     shots.push((v.shot(), 60));
     let [middle, left, right] = [0.5, 0.15, 0.85].map(|x| v.at(x, 0.3));

@@ -173,8 +173,15 @@ impl Viewer<'_> {
         });
         if found.is_none() {
             let mut short = self.state.clone();
-            short["controls"] = self.labels().into();
+            short["controls"] = self.labels().join(", ").into();
             panic!("not within {patience:?}: {what}; the last state is {short:#}");
+        }
+    }
+
+    /// Reads what was printed so far.
+    pub(crate) fn catch_up(&mut self) {
+        while let Ok(line) = self.lines.try_recv() {
+            self.state = serde_json::from_str(&line).expect("a line of JSON");
         }
     }
 
@@ -291,47 +298,6 @@ impl Viewer<'_> {
         self.button(button, false);
     }
 
-    /// The names of all controls.
-    pub(crate) fn labels(&self) -> Vec<String> {
-        let controls = self.state["controls"].as_array().cloned().unwrap_or_default();
-        controls
-            .iter()
-            .filter_map(|control| {
-                Some(format!("{} {:?}", control["role"].as_str()?, control["label"].as_str()?))
-            })
-            .collect()
-    }
-
-    /// A control by its name, and by its role where labels go by the same name; the `index`th of several. Waits for
-    /// it.
-    #[track_caller]
-    pub(crate) fn control(&mut self, role: &str, label: &str, index: usize) -> Value {
-        let find = |state: &Value| {
-            let controls = state["controls"].as_array()?;
-            let mut found =
-                controls.iter().filter(|c| c["label"] == label && (role.is_empty() || c["role"] == role));
-            found.nth(index).cloned()
-        };
-        self.wait(&format!("the control {role} {label:?}"), |state| find(state).is_some());
-        find(&self.state).expect("it was just there")
-    }
-
-    /// Clicks a control by its name; see [`Self::control`].
-    #[track_caller]
-    pub(crate) fn click(&mut self, role: &str, label: &str) {
-        let control = self.control(role, label, 0);
-        self.click_at(middle(&control));
-    }
-
-    /// Opens a menu of the bar, or a list to choose from, and clicks an entry.
-    #[track_caller]
-    pub(crate) fn pick(&mut self, (role, label): (&str, &str), entry: &str) {
-        let before = self.control(role, label, 0);
-        self.click_at(middle(&before));
-        let entries = self.control("Button", entry, 0);
-        self.click_at(middle(&entries));
-    }
-
     // What is seen.
 
     /// The rectangle of the picture: x, y, width, height in the window, pixels.
@@ -374,13 +340,22 @@ impl Viewer<'_> {
     /// Waits until the window shows what is wanted: the server may be a little behind the program. Fails with what was
     /// said last.
     #[track_caller]
-    pub(crate) fn see<T>(&mut self, what: &str, mut wanted: impl FnMut(&Shot) -> Result<T, String>) -> T {
+    pub(crate) fn see<T>(
+        &mut self,
+        what: &str,
+        mut wanted: impl FnMut(&Self, &Shot) -> Result<T, String>,
+    ) -> T {
         let end = Instant::now() + Duration::from_secs(10);
         loop {
             let shot = self.shot();
-            match wanted(&shot) {
+            match wanted(self, &shot) {
                 Ok(found) => return found,
-                Err(why) => assert!(Instant::now() < end, "not seen: {what}: {why}"),
+                Err(why) if Instant::now() < end => drop(why),
+                Err(why) => {
+                    let file = std::env::temp_dir().join("antumbra-view-failed.png");
+                    shot.write(&file);
+                    panic!("not seen: {what}: {why}; {} shows it", file.display());
+                }
             }
             std::thread::sleep(Duration::from_millis(20));
         }
@@ -427,10 +402,4 @@ impl Drop for Viewer<'_> {
         drop(self.child.kill());
         drop(self.child.wait());
     }
-}
-
-/// The middle of a control.
-pub(crate) fn middle(control: &Value) -> [f64; 2] {
-    let number = |i: usize| control["rect"][i].as_f64().unwrap_or_default();
-    [number(0) + 0.5 * number(2), number(1) + 0.5 * number(3)]
 }
