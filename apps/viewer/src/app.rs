@@ -30,9 +30,7 @@ pub(crate) enum Wake {
 pub(crate) fn run(options: Options) -> Result<(), ViewerError> {
     let remembered = if options.fresh { Remembered::default() } else { Remembered::load() };
     let model = model(&options, &remembered)?;
-    let events = EventLoop::<Wake>::with_user_event()
-        .build()
-        .map_err(|error| ViewerError::NoDisplay(error.to_string()))?;
+    let events = EventLoop::<Wake>::with_user_event().build().map_err(ViewerError::no_display)?;
     if options.json {
         put(&report::keys())?;
     }
@@ -47,7 +45,7 @@ pub(crate) fn run(options: Options) -> Result<(), ViewerError> {
         running: None,
         failure: None,
     };
-    let outcome = events.run_app(&mut app).map_err(|error| ViewerError::NoDisplay(error.to_string()));
+    let outcome = events.run_app(&mut app).map_err(ViewerError::no_display);
     match app.failure.take() {
         Some(failure) => Err(failure),
         None => outcome,

@@ -49,12 +49,13 @@ impl GlWindow {
                 configs.sort_by_key(|config| (config.num_samples(), !config.hardware_accelerated()));
                 configs.swap_remove(0)
             })
-            .map_err(|error| ViewerError::NoDisplay(error.to_string()))?;
+            .map_err(ViewerError::no_display)?;
         let display = config.display();
         let window = match window {
             Some(window) => window,
-            None => glutin_winit::finalize_window(events, attributes, &config)
-                .map_err(|error| ViewerError::NoDisplay(error.to_string()))?,
+            None => {
+                glutin_winit::finalize_window(events, attributes, &config).map_err(ViewerError::no_display)?
+            }
         };
         let context = Self::context(&config, &window)?;
         let surface = Self::surface(&config, &window)?;
@@ -65,8 +66,7 @@ impl GlWindow {
     }
 
     fn context(config: &Config, window: &Window) -> Result<NotCurrentContext, ViewerError> {
-        let handle =
-            window.window_handle().map_err(|error| ViewerError::NoDisplay(error.to_string()))?.as_raw();
+        let handle = window.window_handle().map_err(ViewerError::no_display)?.as_raw();
         let mut answers = Vec::new();
         for api in APIS {
             let attributes = ContextAttributesBuilder::new()
@@ -83,9 +83,8 @@ impl GlWindow {
     }
 
     fn surface(config: &Config, window: &Window) -> Result<Surface<WindowSurface>, ViewerError> {
-        let attributes = window
-            .build_surface_attributes(Default::default())
-            .map_err(|error| ViewerError::NoDisplay(error.to_string()))?;
+        let attributes =
+            window.build_surface_attributes(Default::default()).map_err(ViewerError::no_display)?;
         // SAFETY: the window lives as long as the surface.
         unsafe { config.display().create_window_surface(config, &attributes) }.map_err(driver)
     }

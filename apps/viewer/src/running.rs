@@ -42,6 +42,7 @@ pub(crate) struct Running {
     vsync: bool,
     pub(crate) hidden: bool,
     printed: Option<String>,
+    title: String,
     /// The interface's name of the picture of maps.
     map_id: Option<egui::TextureId>,
     /// Frames drawn so far.
@@ -65,8 +66,8 @@ pub(crate) struct Opening<'a> {
 /// How long after a change more samples are worth their time.
 const SETTLE: Duration = Duration::from_millis(200);
 
-/// The shortest time between two frames where nothing else limits it.
-const FRAME: Duration = Duration::from_micros(16_000);
+/// Pictures a second of a screen that does not say.
+const USUAL_RATE: f64 = 60.0;
 
 impl Running {
     /// Opens a window of this size, in points, and makes all that is in it.
@@ -123,6 +124,7 @@ impl Running {
             vsync: settings.vsync,
             hidden: false,
             printed: None,
+            title: String::new(),
             map_id: None,
             frames: 0,
         })
@@ -164,7 +166,7 @@ impl Running {
         });
         let rect = pixels(picture, scale, size);
         model.aspect = f64::from(rect[2].max(1)) / f64::from(rect[3].max(1));
-        self.title(model);
+        self.show_title(model);
 
         let sides = self.draw(model, rect, scale, size)?;
         ui::timing::note(model, &sides, [rect[2], rect[3]]);
@@ -186,7 +188,7 @@ impl Running {
             self.print(model, rect, size, scale)?;
         }
         if model.is_moving() {
-            self.wake_at(Some(now + FRAME));
+            self.wake_at(Some(now + self.interval()));
         } else if now < self.busy_until {
             self.wake_at(Some(self.busy_until));
         }
@@ -279,6 +281,17 @@ impl Running {
         }
     }
 
+    /// How soon after a frame the next one of a motion begins: a little sooner than the screen shows it, which showing it
+    /// then waits for; at once where frames do not wait.
+    fn interval(&self) -> Duration {
+        if !self.vsync {
+            return Duration::ZERO;
+        }
+        let rate = self.window.window.current_monitor().and_then(|monitor| monitor.refresh_rate_millihertz());
+        let rate = rate.filter(|rate| *rate > 0).map_or(USUAL_RATE, |rate| f64::from(rate) * 1e-3);
+        Duration::from_secs_f64(0.9 / rate)
+    }
+
     /// Samples a pixel.
     fn samples(&self, model: &Model, still: bool) -> u32 {
         let most = self.canvas.most_samples();
@@ -300,11 +313,12 @@ impl Running {
         }
     }
 
-    fn title(&self, model: &Model) {
+    fn show_title(&mut self, model: &Model) {
         let mark = if model.document.is_modified() { "*" } else { "" };
         let title = format!("{}{mark} – antumbra", model.document.source().name());
-        if self.window.window.title() != title {
+        if self.title != title {
             self.window.window.set_title(&title);
+            self.title = title;
         }
     }
 

@@ -32,7 +32,8 @@ const MAX_VISIBILITY: u64 = 1 << 29;
 /// # Errors
 /// Whatever ends the command early.
 pub(crate) fn run(cli: Cli) -> Result<(), CliError> {
-    match cli.command.unwrap_or_else(default_command) {
+    let Some(command) = cli.command else { return run_default() };
+    match command {
         #[cfg(feature = "viewer")]
         Command::View(arguments) => view::run(&arguments),
         Command::Demo(arguments) => demo::run(&arguments),
@@ -47,12 +48,12 @@ pub(crate) fn run(cli: Cli) -> Result<(), CliError> {
 }
 
 /// The viewer where there is a display, else the gallery.
-fn default_command() -> Command {
+fn run_default() -> Result<(), CliError> {
     #[cfg(feature = "viewer")]
-    if view::is_possible() {
-        return Command::View(crate::args::ViewArgs::default());
+    if view::run_if_possible()? {
+        return Ok(());
     }
-    Command::Demo(DemoArgs::default())
+    demo::run(&DemoArgs::default())
 }
 
 /// One scene to one picture, everything about it checked.
