@@ -242,9 +242,10 @@ impl Binding {
             "Questionmark" => "?",
             key => key,
         };
+        let command = if cfg!(target_os = "macos") { "Cmd" } else { "Ctrl" };
         match (self.modifiers.command, self.modifiers.shift) {
-            (true, true) => format!("Ctrl+Shift+{key}"),
-            (true, false) => format!("Ctrl+{key}"),
+            (true, true) => format!("{command}+Shift+{key}"),
+            (true, false) => format!("{command}+{key}"),
             _ => key.to_owned(),
         }
     }
