@@ -43,6 +43,8 @@ pub(crate) fn run(options: Options) -> Result<(), ViewerError> {
         size,
         maximized: remembered.maximized && options.size.is_none(),
         running: None,
+        kept: None,
+        keep_at: None,
         failure: None,
     };
     let outcome = events.run_app(&mut app).map_err(ViewerError::no_display);
@@ -86,8 +88,14 @@ struct App {
     size: [u32; 2],
     maximized: bool,
     running: Option<Running>,
+    /// What was last found worth remembering, and when it is to be kept.
+    kept: Option<Remembered>,
+    keep_at: Option<Instant>,
     failure: Option<ViewerError>,
 }
+
+/// How long nothing changes before it is kept.
+const QUIET: Duration = Duration::from_secs(2);
 
 impl App {
     fn fail(&mut self, events: &ActiveEventLoop, failure: ViewerError) {
@@ -101,6 +109,8 @@ impl App {
         if let Err(failure) = running.frame(&mut self.model, self.json) {
             return self.fail(events, failure);
         }
+        self.remember_soon();
+        let Some(running) = &mut self.running else { return };
         for request in std::mem::take(&mut self.model.requests) {
             match request {
                 Request::Quit => events.exit(),
@@ -114,15 +124,42 @@ impl App {
         }
     }
 
-    fn remember(&mut self) {
+    /// Keeps what there is to remember once nothing of it has changed for a while: a program may be ended unasked.
+    fn remember_soon(&mut self) {
         // What is looked at while measuring is nobody's choice.
+        if self.model.timing.measuring().is_some() {
+            return;
+        }
+        let Some(mut new) = self.remembered() else { return };
+        // Time that runs is no change.
+        new.forget_time();
+        if self.kept.as_ref() != Some(&new) {
+            self.kept = Some(new);
+            self.keep_at = Some(Instant::now() + QUIET);
+        }
+        if self.keep_at.is_some_and(|when| when <= Instant::now()) {
+            self.keep_at = None;
+            self.remember();
+        }
+        if let Some(running) = &mut self.running {
+            running.wake_at(self.keep_at);
+        }
+    }
+
+    fn remember(&mut self) {
         self.model.stop_measuring();
-        let Some(running) = &self.running else { return };
+        if let Some(remembered) = self.remembered() {
+            remembered.store();
+        }
+    }
+
+    fn remembered(&self) -> Option<Remembered> {
+        let running = self.running.as_ref()?;
         let window = &running.window.window;
         let size = window.inner_size().to_logical::<u32>(window.scale_factor());
         let maximized = window.is_maximized();
         let size = if maximized || size.width == 0 { self.size } else { [size.width, size.height] };
-        Remembered::of(&self.model, Some(size), maximized).store();
+        Some(Remembered::of(&self.model, Some(size), maximized))
     }
 }
 

@@ -9,6 +9,7 @@ use etcetera::BaseStrategy;
 use serde::{Deserialize, Serialize};
 
 use crate::model::Model;
+use crate::model::camera;
 use crate::model::clock::Clock;
 use crate::model::document::Source;
 use crate::model::settings::Settings;
@@ -89,6 +90,11 @@ impl Remembered {
         Self { settings: model.settings.clone(), file, gallery, camera, clock: model.clock, size, maximized }
     }
 
+    /// Leaves the scene's time out, for comparing.
+    pub(crate) fn forget_time(&mut self) {
+        self.clock.time = 0.0;
+    }
+
     /// The scene that was looked at.
     pub(crate) fn source(&self) -> Option<Source> {
         self.file.clone().map(Source::File).or_else(|| self.gallery.clone().map(Source::Gallery))
@@ -98,14 +104,11 @@ impl Remembered {
     pub(crate) fn restore(&self, model: &mut Model) {
         if let Some(Eye { eye, target, up, fov_y }) = self.camera {
             let [eye, target, up] = [eye, target, up].map(DVec3::from_array);
-            let apart = (target - eye).normalize_or_zero().cross(up.normalize_or_zero()).length();
-            if eye.is_finite() && target.is_finite() && apart > 1e-5 && (0.001..3.13).contains(&fov_y) {
-                model.document.look(Camera { eye, target, up, fov_y });
-            }
+            let old = model.scene().camera;
+            let fov_y = if (0.001..3.13).contains(&fov_y) { fov_y } else { old.fov_y };
+            model.document.look(camera::sane(&old, Camera { eye, target, up, fov_y }));
         }
-        if self.clock.time.is_finite() && self.clock.speed.is_finite() {
-            model.clock = self.clock;
-        }
+        model.clock = self.clock.sane();
     }
 }
 

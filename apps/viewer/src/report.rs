@@ -146,7 +146,7 @@ pub(crate) fn state(model: &Model, seen: &Seen, rect: [i32; 4], window: [u32; 2]
         "speed": model.clock.speed,
         "light": model.light,
         "component": component,
-        "components": model.components.iter().map(|c| json!([c.light, c.offset.to_array()])).collect::<Vec<_>>(),
+        "components": model.document.components().iter().map(|c| json!([c.light, c.offset.to_array()])).collect::<Vec<_>>(),
         "chosen": chosen,
         "lights": lights,
         "objects": objects,

@@ -16,6 +16,7 @@ use crate::canvas::{Canvas, Side, View};
 use crate::gl_window::GlWindow;
 use crate::model::Model;
 use crate::model::settings::{Antialiasing, Settings};
+use crate::model::way::Way;
 use crate::reference::Refinement;
 use crate::ui::teaching::Lesson;
 use crate::ui::{self, MapImage, Seen};
@@ -34,8 +35,9 @@ pub(crate) struct Running {
     last_frame: Instant,
     /// Until when things count as moving.
     busy_until: Instant,
-    /// What the last frame showed: scene, time, size.
-    last_shown: Option<(Arc<Scene>, f64, [i32; 2])>,
+    last_shown: Option<Shown>,
+    /// When drawing the frame began, if it was one of something that moves.
+    last_moved: Option<Instant>,
     /// How long the last frame that moved took.
     last_cost: Duration,
     seen: Seen,
@@ -47,6 +49,22 @@ pub(crate) struct Running {
     map_id: Option<egui::TextureId>,
     /// Frames drawn so far.
     frames: u64,
+}
+
+/// What a frame showed.
+struct Shown {
+    scene: Arc<Scene>,
+    time: f64,
+    size: [i32; 2],
+    ways: [Way; 2],
+}
+
+impl Shown {
+    /// Whether nothing has changed.
+    fn is(&self, other: &Self) -> bool {
+        let Self { scene, time, size, ways } = self;
+        Arc::ptr_eq(scene, &other.scene) && *time == other.time && *size == other.size && *ways == other.ways
+    }
 }
 
 /// What a window is opened with.
@@ -120,6 +138,7 @@ impl Running {
             last_frame: now,
             busy_until: now,
             last_shown: None,
+            last_moved: None,
             last_cost: Duration::ZERO,
             vsync: settings.vsync,
             hidden: false,
@@ -175,6 +194,9 @@ impl Running {
         self.painter.paint_and_update_textures(size, scale, &primitives, &mut textures);
         self.window.window.pre_present_notify();
         self.window.swap()?;
+        if let Some(start) = self.last_moved.take() {
+            self.last_cost = start.elapsed();
+        }
         self.frames += 1;
         if sides != self.seen.sides {
             // What is said of a picture is said in the frame after it.
@@ -204,10 +226,13 @@ impl Running {
         size: [u32; 2],
     ) -> Result<[Side; 2], ViewerError> {
         let now = self.last_frame;
-        let shown = (model.scene().clone(), model.clock.time, [rect[2], rect[3]]);
-        let same = self.last_shown.as_ref().is_some_and(|(scene, time, size)| {
-            Arc::ptr_eq(scene, &shown.0) && *time == shown.1 && *size == shown.2
-        });
+        let shown = Shown {
+            scene: model.scene().clone(),
+            time: model.clock.time,
+            size: [rect[2], rect[3]],
+            ways: model.settings.ways,
+        };
+        let same = self.last_shown.as_ref().is_some_and(|last| last.is(&shown));
         if !same {
             self.busy_until = now + SETTLE;
             self.last_shown = Some(shown);
@@ -225,7 +250,7 @@ impl Running {
             scene: model.scene(),
             time: model.clock.time,
             settings: &model.settings,
-            components: &model.components,
+            components: model.document.components(),
             rect,
             samples,
             strokes: &strokes,
@@ -242,13 +267,12 @@ impl Running {
         let start = Instant::now();
         let sides = self.canvas.draw(&view)?;
         self.seen.traced = view.traced.map(|t| (t.samples, t.target, t.stale));
-        if !still {
-            self.last_cost = start.elapsed();
-        }
+        self.last_moved = (!still).then_some(start);
         self.show_map(map);
-        self.seen.frame(model, &sides, still);
+        self.seen.frame(&sides, still);
         if still && self.seen.wants_error(model) {
-            self.seen.error = self.canvas.error(model.scene().image.exposure as f32);
+            let error = self.canvas.error(model.scene().image.exposure as f32);
+            self.seen.found(error);
         }
         Ok(sides)
     }
@@ -329,7 +353,7 @@ impl Running {
 
     /// Writes what the picture shows.
     pub(crate) fn screenshot(&mut self, model: &Model, path: &std::path::Path) -> Result<(), String> {
-        let Some(size) = self.last_shown.as_ref().map(|shown| shown.2) else {
+        let Some(size) = self.last_shown.as_ref().map(|shown| shown.size) else {
             return Err("nothing was drawn yet".into());
         };
         let strokes = self.strokes(model).map_err(|error| error.to_string())?;
@@ -337,7 +361,7 @@ impl Running {
             scene: model.scene(),
             time: model.clock.time,
             settings: &model.settings,
-            components: &model.components,
+            components: model.document.components(),
             rect: [0, 0, size[0], size[1]],
             samples: self.samples(model, true),
             strokes: &strokes,

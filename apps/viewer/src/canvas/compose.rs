@@ -23,6 +23,8 @@ pub(crate) struct Composition {
     pub(crate) dim: [f32; 2],
     /// How they are put together.
     pub(crate) layout: Layout,
+    /// Whether a little noise takes the bands out of dark gradients.
+    pub(crate) dither: bool,
     /// Where the divider is, as a part of the width.
     pub(crate) divider: f32,
     /// Factor on linear colour.
@@ -106,6 +108,7 @@ impl Compose {
                 Layout::Difference => 2,
             };
             gl.uniform_1_i32(uniform("u_layout").as_ref(), layout);
+            gl.uniform_1_f32(uniform("u_dither").as_ref(), if what.dither { 1.0 / 255.0 } else { 0.0 });
             gl.uniform_1_f32(uniform("u_divider").as_ref(), what.divider);
             gl.uniform_1_f32(uniform("u_exposure").as_ref(), what.exposure);
             gl.uniform_1_f32(uniform("u_scale").as_ref(), what.error_scale);

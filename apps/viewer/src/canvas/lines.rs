@@ -172,11 +172,7 @@ fn push_stroke(vertices: &mut Vec<Vertex>, stroke: &Stroke, place: &Place<'_>) {
         };
         let seen = |p: DVec3| Seen { at: p.truncate() / -p.z * pixels, inverse: -1.0 / p.z };
         let (a, b) = (seen(a), seen(b));
-        // Far outside the picture there is nothing to see, and numbers grow.
-        let far = |p: Seen| !p.at.is_finite() || p.at.abs().max_element() > 1e6;
-        if far(a) || far(b) || misses(a.at, b.at, size) {
-            continue;
-        }
+        let Some([a, b]) = clipped(a, b, size) else { continue };
         let length = a.at.distance(b.at);
         let forward = (b.at - a.at).normalize_or(DVec2::X);
         let across = forward.perp();
@@ -212,15 +208,47 @@ fn in_front(a: DVec3, b: DVec3, near: f64) -> Option<[DVec3; 2]> {
     Some([if da > 0.0 { a } else { cut() }, if db > 0.0 { b } else { cut() }])
 }
 
-/// Whether both ends are beyond the same side of the picture.
-fn misses(a: DVec2, b: DVec2, size: DVec2) -> bool {
-    let beyond = |f: fn(DVec2) -> f64, limit: f64| f(a) > limit && f(b) > limit;
-    beyond(|p| p.x, size.x) || beyond(|p| -p.x, size.x) || beyond(|p| p.y, size.y) || beyond(|p| -p.y, size.y)
+/// The part of a segment in the picture and a little round it: beyond there is nothing to see, and numbers grow. On the
+/// screen 1 / distance is linear.
+fn clipped(a: Seen, b: Seen, size: DVec2) -> Option<[Seen; 2]> {
+    if !(a.at.is_finite() && b.at.is_finite()) {
+        return None;
+    }
+    let (mut first, mut last) = (0.0f64, 1.0f64);
+    for (from, to, limit) in [(a.at.x, b.at.x, size.x), (a.at.y, b.at.y, size.y)] {
+        for sign in [1.0, -1.0] {
+            // Inside where the distance to this side is above zero.
+            let (here, there) = (limit - sign * from, limit - sign * to);
+            if here < 0.0 && there < 0.0 {
+                return None;
+            }
+            let crossing = here / (here - there);
+            if here < 0.0 {
+                first = first.max(crossing);
+            } else if there < 0.0 {
+                last = last.min(crossing);
+            }
+        }
+    }
+    let at = |t: f64| Seen { at: a.at.lerp(b.at, t), inverse: a.inverse + (b.inverse - a.inverse) * t };
+    (first < last).then(|| [at(first), at(last)])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn far_ends_are_cut_off() {
+        let seen = |x: f64, y: f64, inverse| Seen { at: DVec2::new(x, y), inverse };
+        let size = DVec2::new(100.0, 50.0);
+        let [a, b] = clipped(seen(0.0, 0.0, 1.0), seen(1e9, 0.0, 1e7), size).expect("a part");
+        assert_eq!((a.at, b.at), (DVec2::ZERO, DVec2::new(100.0, 0.0)), "up to the side");
+        assert!((b.inverse - 2.0).abs() < 1e-6, "and as far away as it is there: {}", b.inverse);
+        assert!(clipped(seen(-200.0, 0.0, 1.0), seen(0.0, 200.0, 1.0), size).is_none(), "past a corner");
+        assert!(clipped(seen(-1e9, -1e8, 1.0), seen(1e9, 1e8, 1.0), size).is_some(), "right across");
+        assert!(clipped(seen(f64::NAN, 0.0, 1.0), seen(0.0, 0.0, 1.0), size).is_none(), "nowhere");
+    }
 
     #[test]
     fn what_is_behind_is_cut_off() {

@@ -14,7 +14,7 @@ use antumbra_host::{Buffers, ColorFormat, ContextInfo, FrameTimer, HostError, Se
 use antumbra_scene::Scene;
 use glow::HasContext;
 
-use crate::model::settings::Settings;
+use crate::model::settings::{Layout, Settings};
 use crate::model::way::Way;
 use crate::reference::Traced;
 use compose::{Compose, Composition};
@@ -172,10 +172,17 @@ impl Canvas {
         let [Some(left), Some(right)] = textures else { return Ok([first, second]) };
         let dim = [&first, &second].map(|side| if side.objection.is_some() { DIMMED } else { 1.0 });
         let settings = view.settings;
+        // There is no error of a technique that refuses: its side is without shadows.
+        let refused = first.objection.is_some() || second.objection.is_some();
+        let layout = match settings.layout {
+            Layout::Difference if refused => Layout::Single,
+            layout => layout,
+        };
         let composition = Composition {
             textures: [left, right],
-            dim,
-            layout: settings.layout,
+            dim: if layout == settings.layout { dim } else { [DIMMED; 2] },
+            layout,
+            dither: settings.dither,
             divider: settings.divider,
             exposure: view.scene.image.exposure as f32,
             error_scale: settings.error_scale,

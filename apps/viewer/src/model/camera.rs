@@ -59,7 +59,7 @@ pub(crate) fn frame(camera: &Camera, moment: &Moment, aspect: f64) -> Camera {
 }
 
 /// The new camera, or the old one where the new one is none that a scene file could have.
-fn sane(old: &Camera, new: Camera) -> Camera {
+pub(crate) fn sane(old: &Camera, new: Camera) -> Camera {
     let within = |p: DVec3| p.is_finite() && p.abs().max_element() <= limits::MAX_COORDINATE;
     let arm = new.target - new.eye;
     let looks =

@@ -21,7 +21,7 @@ impl Model {
     /// Where the components of the chosen light are, but for the central one; empty unless it is a collection.
     pub(super) fn side_components(&self) -> Vec<DVec3> {
         let own: Vec<DVec3> =
-            self.components.iter().filter(|c| c.light == self.light).map(|c| c.offset).collect();
+            self.document.components().iter().filter(|c| c.light == self.light).map(|c| c.offset).collect();
         let (Some(count), Some(light)) = (self.settings.components(), self.scene().lights.get(self.light))
         else {
             return Vec::new();
@@ -56,8 +56,10 @@ impl Model {
         let light = self.light;
         if let Some((index, mut offsets)) = self.chosen_component() {
             offsets[index] = edit::within(offsets[index] + by);
-            self.components.retain(|c| c.light != light);
-            self.components.extend(offsets.into_iter().map(|offset| Component { light, offset }));
+            self.document.edit_all(("move component", light), |_, components| {
+                components.retain(|c| c.light != light);
+                components.extend(offsets.into_iter().map(|offset| Component { light, offset }));
+            });
         } else if light < self.scene().lights.len() {
             self.document.edit(("move light", light), |s| edit::move_light(&mut s.lights[light], by));
         } else {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use antumbra::technique::composite::Component;
 use antumbra_scene::{Camera, Scene, SceneError};
 
 /// How many steps can be undone.
@@ -30,6 +31,9 @@ impl Source {
 /// What belongs to one step of undoing: edits of the same kind and thing, one right after another, are one.
 pub(crate) type Stroke = (&'static str, usize);
 
+/// What a step leads back or forth to.
+type Step = (Arc<Scene>, Vec<Component>);
+
 /// A scene and its history.
 pub(crate) struct Document {
     scene: Arc<Scene>,
@@ -38,8 +42,11 @@ pub(crate) struct Document {
     loaded_from: Option<PathBuf>,
     saved: Arc<Scene>,
     modified: bool,
-    undo: Vec<Arc<Scene>>,
-    redo: Vec<Arc<Scene>>,
+    /// Components of lights that were moved: for each such light all but the central one, from its position. Scene files
+    /// have no place for them.
+    components: Vec<Component>,
+    undo: Vec<Step>,
+    redo: Vec<Step>,
     /// The step that further edits of its kind go into.
     open: Option<Stroke>,
 }
@@ -59,6 +66,7 @@ impl Document {
             source,
             loaded_from,
             modified: false,
+            components: Vec::new(),
             undo: Vec::new(),
             redo: Vec::new(),
             open: None,
@@ -97,12 +105,22 @@ impl Document {
             || *objects != saved.objects;
     }
 
+    /// The components that were moved.
+    pub(crate) fn components(&self) -> &[Component] {
+        &self.components
+    }
+
     /// Changes the scene. A change that changes nothing leaves no step.
     pub(crate) fn edit(&mut self, stroke: Stroke, change: impl FnOnce(&mut Scene)) {
-        let before = self.scene.clone();
-        change(Arc::make_mut(&mut self.scene));
-        if *before == *self.scene {
-            self.scene = before;
+        self.edit_all(stroke, |scene, _| change(scene));
+    }
+
+    /// Changes the scene and the components.
+    pub(crate) fn edit_all(&mut self, stroke: Stroke, change: impl FnOnce(&mut Scene, &mut Vec<Component>)) {
+        let before = (self.scene.clone(), self.components.clone());
+        change(Arc::make_mut(&mut self.scene), &mut self.components);
+        if *before.0 == *self.scene && before.1 == self.components {
+            self.scene = before.0;
             return;
         }
         if self.open != Some(stroke) {
@@ -141,23 +159,27 @@ impl Document {
     /// Takes back a step; the camera stays.
     pub(crate) fn undo(&mut self) {
         if let Some(before) = self.undo.pop() {
-            let after = std::mem::replace(&mut self.scene, before);
-            self.look(after.camera);
+            let after = self.go_to(before);
             self.redo.push(after);
-            self.open = None;
-            self.compare();
         }
     }
 
     /// Takes the step again.
     pub(crate) fn redo(&mut self) {
         if let Some(after) = self.redo.pop() {
-            let before = std::mem::replace(&mut self.scene, after);
-            self.look(before.camera);
+            let before = self.go_to(after);
             self.undo.push(before);
-            self.open = None;
-            self.compare();
         }
+    }
+
+    /// Puts another state in place of the present one, which it returns.
+    fn go_to(&mut self, step: Step) -> Step {
+        let scene = std::mem::replace(&mut self.scene, step.0);
+        let components = std::mem::replace(&mut self.components, step.1);
+        self.look(scene.camera);
+        self.open = None;
+        self.compare();
+        (scene, components)
     }
 
     /// Writes the scene to a file, which is where it comes from afterwards.

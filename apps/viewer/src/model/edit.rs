@@ -104,13 +104,11 @@ pub(crate) fn add_light(scene: &mut Scene, kind: LightKind, distance: f64) -> Op
 /// Adds an object of a shape at the target of the camera, or a little above; its number, or `None` if there are too
 /// many.
 pub(crate) fn add_object(scene: &mut Scene, kind: &str, shape: Shape) -> Option<usize> {
-    let parts: usize = scene.objects.iter().map(|o| o.parts.len()).sum();
-    if scene.objects.len() >= limits::MAX_OBJECTS || parts >= limits::MAX_PARTS {
+    if !has_room(scene, 1) {
         return None;
     }
     let name = scene.unique_object_name(kind);
-    let translation =
-        if shape == Shape::Plane { DVec3::ZERO } else { within(scene.camera.target + DVec3::Y) };
+    let translation = if shape == Shape::Plane { DVec3::ZERO } else { free_place(scene) };
     scene.objects.push(Object {
         name,
         parts: vec![Part { shape, pose: Pose::IDENTITY }],
@@ -121,6 +119,26 @@ pub(crate) fn add_object(scene: &mut Scene, kind: &str, shape: Shape) -> Option<
         motion: None,
     });
     Some(scene.objects.len() - 1)
+}
+
+/// What is said where there is no room.
+pub(crate) const NO_ROOM: &str = "the scene has as many objects as a scene may have";
+
+/// Whether an object of so many parts more is still a scene.
+pub(crate) fn has_room(scene: &Scene, parts: usize) -> bool {
+    let there: usize = scene.objects.iter().map(|o| o.parts.len()).sum();
+    scene.objects.len() < limits::MAX_OBJECTS && there + parts <= limits::MAX_PARTS
+}
+
+/// Above what the camera looks at, or beside it where something is there already.
+fn free_place(scene: &Scene) -> DVec3 {
+    let (across, ..) = scene.camera.axes();
+    let step = DVec3::new(across.x, 0.0, across.z).normalize_or(DVec3::X) * 1.5;
+    let base = within(scene.camera.target + DVec3::Y);
+    let taken = |place: &DVec3| scene.objects.iter().any(|o| o.pose.translation.distance(*place) < 1.0);
+    // To the right and to the left in turn, farther each time.
+    let side = |k: i32| f64::from((k + 1) / 2) * if k % 2 == 1 { 1.0 } else { -1.0 };
+    within((0..64).map(|k| base + step * side(k)).find(|place| !taken(place)).unwrap_or(base))
 }
 
 /// An orbit round the vertical axis through the camera's target, once in eight seconds: what a thing that starts to

@@ -18,7 +18,6 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use antumbra::technique::composite::Component;
 use antumbra_scene::{Camera, Motion, Scene};
 
 use crate::GalleryScene;
@@ -100,8 +99,6 @@ pub(crate) struct Model {
     pub(crate) component: Option<Side>,
     /// What is chosen, for the pointer, the panel and `Delete`.
     pub(crate) chosen: Option<Item>,
-    /// Components that were moved: for each such light all but the central one, from its position.
-    pub(crate) components: Vec<Component>,
     /// Motions that were taken away.
     pub(crate) parked: Parked,
     /// What is asked.
@@ -133,7 +130,6 @@ impl Model {
             light: 0,
             component: None,
             chosen: None,
-            components: Vec::new(),
             parked: Parked::default(),
             dialog: None,
             after_save: None,
@@ -163,6 +159,8 @@ impl Model {
 
     /// Does what a key or a menu asks.
     pub(crate) fn apply(&mut self, command: Command) {
+        // What was said was about something before.
+        self.message = None;
         match command {
             Command::Shape(shape) => {
                 let chosen = match self.chosen {
@@ -185,8 +183,8 @@ impl Model {
             Command::PlayPause => self.clock.playing = !self.clock.playing,
             Command::Rewind => self.clock.time = 0.0,
             Command::Speed(factor) => {
-                self.clock.speed = (self.clock.speed * factor).clamp(-16.0, 16.0);
-                self.say(format!("{} times as fast", self.clock.speed));
+                self.clock.scale_speed(factor);
+                self.say(format!("{} times as fast", (self.clock.speed * 1e4).round() / 1e4));
             }
             Command::NextWay(forward) => self.settings.ways[0] = self.settings.ways[0].neighbour(forward),
             Command::NextLayout => {

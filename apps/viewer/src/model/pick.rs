@@ -97,6 +97,8 @@ impl Grip {
         let Some(there) = lens.on_plane(to, self.held, normal) else { return DVec3::ZERO };
         let by = match along {
             Some(axis) => axis * axis.dot(there - self.held),
+            // Level to the last bit.
+            None if normal == up => DVec3 { y: 0.0, ..there - self.held },
             None => there - self.held,
         };
         self.held += by;

@@ -76,7 +76,6 @@ impl Model {
                 self.light = 0;
                 self.component = None;
                 self.chosen = None;
-                self.components.clear();
                 self.parked.clear();
                 self.message = None;
                 self.stop_measuring();
@@ -111,7 +110,8 @@ impl Model {
         };
         let next = match here {
             Some(here) => (here + if forward { 1 } else { count - 1 }) % count,
-            None => 0,
+            None if forward => 0,
+            None => count - 1,
         };
         self.before(Then::Show(Source::Gallery(self.gallery[next].name.to_owned())));
     }

@@ -92,6 +92,8 @@ pub(crate) struct Settings {
     pub(crate) vsync: bool,
     /// Samples a pixel.
     pub(crate) antialiasing: Antialiasing,
+    /// Whether a little noise takes the bands out of dark gradients.
+    pub(crate) dither: bool,
     /// Size of the interface, times what the screen asks for.
     pub(crate) zoom: f32,
 }
@@ -109,6 +111,7 @@ impl Default for Settings {
             timing: false,
             vsync: true,
             antialiasing: Antialiasing::Auto,
+            dither: true,
             zoom: 1.0,
         }
     }

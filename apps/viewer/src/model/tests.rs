@@ -56,18 +56,23 @@ fn components_move_one_by_one() {
     m.apply(Command::First);
     assert_eq!(m.component, Some(Side::Left), "the first light is a collection");
     m.apply(Command::MoveLight(DVec3::Y));
-    let offsets: Vec<DVec3> = m.components.iter().map(|c| c.offset).collect();
+    let offsets: Vec<DVec3> = m.document.components().iter().map(|c| c.offset).collect();
     assert_eq!(offsets.len(), 2, "all but the central one are named");
     let moved: Vec<&DVec3> = offsets.iter().filter(|o| o.y != 0.0).collect();
     assert!(matches!(moved[..], [o] if o.x == -0.5 && o.y == STEP), "the left one alone moved: {offsets:?}");
     m.apply(Command::Second);
     m.apply(Command::MoveLight(DVec3::X));
     assert!(
-        m.components.iter().any(|c| (c.offset.x - 0.5 - STEP).abs() < 1e-12),
+        m.document.components().iter().any(|c| (c.offset.x - 0.5 - STEP).abs() < 1e-12),
         "the right one: {:?}",
-        m.components
+        m.document.components()
     );
     assert_eq!(m.scene().lights[0].position.x, -2.0, "the light stays");
+    m.document.end_stroke();
+    let moved = m.document.components().to_vec();
+    m.apply(Command::MoveLight(DVec3::Z));
+    m.apply(Command::Undo);
+    assert_eq!(m.document.components(), moved, "moving a component is a step");
     m.apply(Command::ChooseLight(1));
     m.apply(Command::First);
     assert_eq!(
@@ -106,6 +111,8 @@ fn deleting_and_undoing() {
     assert_eq!(m.chosen, Some(Item::Object(2)), "the copy is chosen");
     m.apply(Command::Undo);
     assert_eq!(m.chosen, None, "and gone");
+    m.move_item(Item::Object(7), DVec3::X);
+    m.move_item(Item::Light(7), DVec3::X);
     for _ in 0..3 {
         m.choose(Some(Item::Light(0)));
         m.apply(Command::Delete);

@@ -19,21 +19,54 @@ pub(crate) fn row<R>(ui: &mut Ui, name: &str, controls: impl FnOnce(&mut Ui, egu
     .inner
 }
 
-/// A number, typed or dragged.
+/// A number as it is shown: six digits, in the shortest way.
+fn shown(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let size = rounded.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) { format!("{rounded:e}") } else { format!("{rounded}") }
+}
+
+/// The number that a text says; none for what is no number and for infinities, which change nothing.
+pub(crate) fn finite(text: &str) -> Option<f64> {
+    text.trim().replace(',', ".").parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// Width of a number's field, and of each of three.
+const WIDE: f32 = 80.0;
+const NARROW: f32 = 56.0;
+
+/// A number, typed or dragged. What is there already stays as it is until something else is written: showing a number
+/// neither rounds it nor moves it into the range.
 fn number(ui: &mut Ui, name: &str, value: &mut f64, range: (f64, f64), speed: f64, suffix: &str) -> bool {
+    sized_number(ui, name, value, range, speed, suffix, WIDE)
+}
+
+/// The same with a field of another width.
+fn sized_number(
+    ui: &mut Ui,
+    name: &str,
+    value: &mut f64,
+    range: (f64, f64),
+    speed: f64,
+    suffix: &str,
+    width: f32,
+) -> bool {
     let mut edited = *value;
     let drag = DragValue::new(&mut edited)
         .range(range.0..=range.1)
+        .clamp_existing_to_range(false)
         .speed(speed)
         .suffix(suffix)
-        .max_decimals(4)
+        .custom_formatter(|value, _| shown(value))
+        .custom_parser(finite)
         .update_while_editing(false);
-    let response = ui.add(drag);
+    let height = ui.spacing().interact_size.y;
+    let response = ui.add_sized([width, height], drag);
     response.widget_info(|| egui::WidgetInfo::drag_value(true, edited));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
-    let changed = response.changed() && edited.is_finite() && edited != *value;
+    let changed = response.changed() && edited.is_finite() && shown(edited) != shown(*value);
     if changed {
-        *value = edited;
+        *value = edited.clamp(range.0, range.1);
     }
     changed
 }
@@ -65,10 +98,10 @@ pub(crate) fn brightness(ui: &mut Ui, name: &str, value: &mut f64, unit: &str) -
 /// Three numbers.
 fn triple(ui: &mut Ui, name: &str, value: &mut DVec3, range: (f64, f64), speed: f64) -> bool {
     row(ui, name, |ui, _| {
-        ui.spacing_mut().interact_size.x = 52.0;
         let mut changed = false;
         for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
-            changed |= number(ui, &format!("{name} {axis}"), &mut value[i], range, speed, "");
+            let name = format!("{name} {axis}");
+            changed |= sized_number(ui, &name, &mut value[i], range, speed, "", NARROW);
         }
         changed
     })
@@ -105,12 +138,12 @@ pub(crate) fn rotation(ui: &mut Ui, name: &str, value: &mut DQuat) -> bool {
     let (y, x, z) = value.to_euler(EulerRot::YXZ);
     let mut angles = [y, x, z].map(f64::to_degrees);
     let changed = row(ui, name, |ui, _| {
-        ui.spacing_mut().interact_size.x = 52.0;
         let mut changed = false;
         for (axis, angle) in ["about y", "about x", "about z"].into_iter().zip(&mut angles) {
-            // Rounding of the conversion shows in the last digits: nobody wants to see it.
+            // Rounding of the conversion shows in the last digits, and a zero's sign: nobody wants to see them.
             let mut shown = (*angle * 1e6).round() / 1e6 + 0.0;
-            if number(ui, &format!("{name} {axis}"), &mut shown, (-360.0, 360.0), 0.5, "°") {
+            let name = format!("{name} {axis}");
+            if sized_number(ui, &name, &mut shown, (-360.0, 360.0), 0.5, "°", NARROW) {
                 *angle = shown;
                 changed = true;
             }
@@ -234,4 +267,31 @@ pub(crate) fn motion(ui: &mut Ui, motion: &mut Motion, rest: DVec3, target: DVec
         }
     }
     changed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (number, text) in [
+            (0.0, "0"),
+            (1.234_567_89, "1.23457"),
+            (1.234e-5, "1.234e-5"),
+            (-1e6, "-1e6"),
+            (0.1 + 0.2, "0.3"),
+            (85.0, "85"),
+        ] {
+            assert_eq!(shown(number), text, "{number:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_changes_nothing() {
+        for text in ["nan", "inf", "-infinity", "", "x", "1e999"] {
+            assert_eq!(finite(text), None, "{text:?}");
+        }
+        assert_eq!(finite(" -2,5 "), Some(-2.5), "with a comma too");
+    }
 }

@@ -4,8 +4,8 @@ use antumbra::glam::DVec3;
 use antumbra_scene::{Light, LightKind, Scene};
 use egui::{Color32, ComboBox, RichText, Ui};
 
-use super::fields;
 use super::style::ACCENT;
+use super::{Seen, fields};
 use crate::model::edit;
 use crate::model::pick::Item;
 use crate::model::{Model, command::Command};
@@ -14,7 +14,7 @@ use crate::model::{Model, command::Command};
 const KINDS: [&str; 6] = ["point", "sphere", "disc", "rectangle", "spot", "directional"];
 
 /// The list, and the chosen light with all it has.
-pub(crate) fn show(ui: &mut Ui, model: &mut Model) {
+pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &mut Seen) {
     let scene = model.scene().clone();
     super::list(ui, "lights", scene.lights.len(), |ui, i| {
         let light = &scene.lights[i];
@@ -25,7 +25,7 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model) {
         ui.painter().circle(spot.center(), 5.0, Color32::from(swatch), egui::Stroke::new(1.5, ring));
         let chosen = model.chosen == Some(Item::Light(i));
         if ui.selectable_label(chosen, format!("{}  {}", i + 1, light.name)).clicked() {
-            model.choose(Some(Item::Light(i)));
+            seen.choose(Some(Item::Light(i)));
         }
         ui.label(RichText::new(light.kind.type_name()).weak());
     });

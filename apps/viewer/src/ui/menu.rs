@@ -2,6 +2,7 @@
 
 use egui::{Button, DragValue, MenuBar, Ui};
 
+use super::fields;
 use crate::model::command::{Command, shortcut};
 use crate::model::document::Source;
 use crate::model::{Model, Then};
@@ -77,12 +78,22 @@ fn time(ui: &mut Ui, model: &mut Model) {
         model.apply(Command::Rewind);
     }
     let label = ui.label("time");
-    ui.add(DragValue::new(&mut model.clock.time).speed(0.02).fixed_decimals(2).suffix(" s"))
-        .labelled_by(label.id);
+    ui.add(
+        DragValue::new(&mut model.clock.time)
+            .custom_parser(fields::finite)
+            .speed(0.02)
+            .fixed_decimals(2)
+            .suffix(" s"),
+    )
+    .labelled_by(label.id);
     let label = ui.label("speed");
-    ui.add(DragValue::new(&mut model.clock.speed).speed(0.02).range(-16.0..=16.0).suffix(" ×"))
-        .labelled_by(label.id);
-    if !model.clock.time.is_finite() {
-        model.clock.time = 0.0;
-    }
+    ui.add(
+        DragValue::new(&mut model.clock.speed)
+            .custom_parser(fields::finite)
+            .speed(0.02)
+            .range(-16.0..=16.0)
+            .suffix(" ×"),
+    )
+    .labelled_by(label.id);
+    model.clock = model.clock.sane();
 }

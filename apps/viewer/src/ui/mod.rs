@@ -17,13 +17,15 @@ pub(crate) mod teaching;
 pub(crate) mod timing;
 mod unsaved;
 
+use std::time::{Duration, Instant};
+
 use antumbra_host::ContextInfo;
 use antumbra_scene::Motion;
 use egui::{CentralPanel, Frame, Panel, Rect, Ui};
 
 use crate::canvas::Side;
 use crate::model::files::Files;
-use crate::model::pick::Grip;
+use crate::model::pick::{Grip, Item};
 use crate::model::settings::Layout;
 use crate::model::{Model, Parked};
 use crate::report::Control;
@@ -38,6 +40,10 @@ pub(crate) struct Seen {
     pub(crate) traced: Option<(u32, u32, bool)>,
     /// Root mean square and largest difference of the two sides.
     pub(crate) error: Option<[f32; 2]>,
+    /// Whether both sides show what they are asked to.
+    sides_compare: bool,
+    /// Whether a side was drawn since the error was found.
+    error_is_old: bool,
     /// The named controls of the last frame, where somebody asks for them.
     pub(crate) controls: Vec<Control>,
     /// Lines and numbers that teach.
@@ -52,8 +58,15 @@ pub(crate) struct Seen {
     files: Option<Files>,
     /// What the pointer drags.
     grip: Option<Grip>,
+    /// Whether what it dragged is gone.
+    lost_grip: bool,
     /// Whether it drags the divider.
     dividing: bool,
+    /// What was chosen with the pointer, and whether a frame has passed since: what was being written when it was is
+    /// taken in that frame.
+    choice: Option<(Option<Item>, bool)>,
+    /// When the error was found.
+    error_found: Option<Instant>,
 }
 
 impl Seen {
@@ -64,6 +77,8 @@ impl Seen {
             still: false,
             traced: None,
             error: None,
+            sides_compare: true,
+            error_is_old: false,
             controls: Vec::new(),
             lesson: Default::default(),
             map: None,
@@ -71,16 +86,36 @@ impl Seen {
             clock,
             files: None,
             grip: None,
+            lost_grip: false,
             dividing: false,
+            choice: None,
+            error_found: None,
         }
     }
 
+    /// Chooses something in the next frame.
+    fn choose(&mut self, item: Option<Item>) {
+        self.choice = Some((item, false));
+    }
+
     /// Takes note of a frame.
-    pub(crate) fn frame(&mut self, _model: &Model, sides: &[Side; 2], still: bool) {
+    pub(crate) fn frame(&mut self, sides: &[Side; 2], still: bool) {
         self.still = still;
+        self.sides_compare = sides.iter().all(|side| side.objection.is_none());
         if sides.iter().any(|side| side.fresh) {
+            self.error_found = self.error_found.filter(|_| self.error.is_some());
+            self.error_is_old = true;
+        }
+        if !still || !self.sides_compare {
             self.error = None;
         }
+    }
+
+    /// Takes note of the error.
+    pub(crate) fn found(&mut self, error: Option<[f32; 2]>) {
+        self.error = error;
+        self.error_is_old = false;
+        self.error_found = Some(Instant::now());
     }
 
     /// Whether a frame is to be drawn to measure it, although nothing in it changed.
@@ -91,7 +126,12 @@ impl Seen {
 
     /// Whether the error of one side against the other is asked for and not known.
     pub(crate) fn wants_error(&self, model: &Model) -> bool {
-        model.settings.layout == Layout::Difference && self.error.is_none()
+        let current = self.traced.is_none_or(|(_, _, stale)| !stale) && self.sides_compare;
+        // Reading two pictures back takes time: once a second is enough while the reference is refined.
+        let due = self.error_found.is_none_or(|then| then.elapsed() > Duration::from_secs(1));
+        model.settings.layout == Layout::Difference
+            && current
+            && (self.error.is_none() || self.error_is_old && due)
     }
 }
 
@@ -109,6 +149,7 @@ pub(crate) struct MapImage {
 /// Shows everything and does what the user asks; where the picture is, points.
 pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     let context = root.ctx().clone();
+    let asked = model.dialog.is_some();
     if !context.input(|input| input.pointer.any_down() || !input.keys_down.is_empty()) {
         model.document.end_stroke();
     }
@@ -131,6 +172,18 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     let picture =
         CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner;
     dialog::show(&context, model, seen);
+    if asked && model.dialog.is_none() {
+        // What had the keyboard is gone: keys are the program's again, at once.
+        context.memory_mut(|memory| memory.focused().into_iter().for_each(|id| memory.surrender_focus(id)));
+    }
+    match seen.choice.take() {
+        Some((item, true)) => model.choose(item),
+        Some((item, false)) => {
+            seen.choice = Some((item, true));
+            context.request_repaint();
+        }
+        None => {}
+    }
     picture
 }
 

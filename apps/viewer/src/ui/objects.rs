@@ -4,7 +4,7 @@ use antumbra::glam::DVec3;
 use antumbra_scene::{Object, Part, Pose, Scene, Shape};
 use egui::{RichText, Ui};
 
-use super::fields;
+use super::{Seen, fields};
 use crate::model::edit;
 use crate::model::pick::Item;
 use crate::model::{Model, command::Command};
@@ -25,13 +25,13 @@ const SHAPES: [&str; 11] = [
 ];
 
 /// The list, and the chosen object with all it has.
-pub(crate) fn show(ui: &mut Ui, model: &mut Model) {
+pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &mut Seen) {
     let scene = model.scene().clone();
     super::list(ui, "objects", scene.objects.len(), |ui, i| {
         let object = &scene.objects[i];
         let chosen = model.chosen == Some(Item::Object(i));
         if ui.selectable_label(chosen, &object.name).clicked() {
-            model.choose(Some(Item::Object(i)));
+            seen.choose(Some(Item::Object(i)));
         }
         ui.label(RichText::new(kind_name(object)).weak());
     });
@@ -61,8 +61,8 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model) {
 
 fn add(model: &mut Model, kind: &str) {
     let count = model.scene().objects.len();
-    if count >= antumbra_scene::limits::MAX_OBJECTS {
-        return model.complain(format!("a scene has at most {count} objects"));
+    if !edit::has_room(model.scene(), 1) {
+        return model.complain(edit::NO_ROOM);
     }
     model.choose_after(Item::Object(count), |scene| {
         edit::add_object(scene, kind, shape(kind));

@@ -10,13 +10,13 @@ use crate::model::settings::{Antialiasing, ERROR_SCALES, Layout, ZOOMS};
 use crate::model::way::Way;
 
 /// Everything in it.
-pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &Seen) {
+pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &mut Seen) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         // What is too wide is wrapped: the panel is as wide as the user made it.
         ui.set_max_width(ui.available_width() - 4.0);
         CollapsingHeader::new("Shadows").default_open(true).show(ui, |ui| shadows(ui, model));
-        CollapsingHeader::new("Lights").default_open(true).show(ui, |ui| lights::show(ui, model));
-        CollapsingHeader::new("Objects").default_open(true).show(ui, |ui| objects::show(ui, model));
+        CollapsingHeader::new("Lights").default_open(true).show(ui, |ui| lights::show(ui, model, seen));
+        CollapsingHeader::new("Objects").default_open(true).show(ui, |ui| objects::show(ui, model, seen));
         CollapsingHeader::new("Teaching")
             .default_open(true)
             .show(ui, |ui| teaching::section(ui, model, seen));
@@ -55,6 +55,8 @@ fn shadows(ui: &mut Ui, model: &mut Model) {
 fn settings(ui: &mut Ui, model: &mut Model) {
     let settings = &mut model.settings;
     ui.checkbox(&mut settings.marks, "marks");
+    ui.checkbox(&mut settings.dither, "dithering")
+        .on_hover_text("A little noise against bands in dark gradients");
     ui.checkbox(&mut settings.vsync, "wait for the screen (vsync)");
     ui.horizontal(|ui| {
         let label = ui.label("antialiasing");

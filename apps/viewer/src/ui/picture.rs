@@ -74,7 +74,13 @@ fn drag(ui: &Ui, model: &mut Model, seen: &mut Seen, response: &Response, size: 
             }
         }
     }
+    // What was held may have been deleted meanwhile, or another scene been opened.
+    if seen.grip.as_ref().is_some_and(|grip| model.chosen != Some(grip.item)) {
+        seen.grip = None;
+        seen.lost_grip = true;
+    }
     if response.dragged()
+        && !seen.lost_grip
         && let Some(at) = response.interact_pointer_pos()
     {
         let delta = response.drag_delta();
@@ -99,12 +105,13 @@ fn drag(ui: &Ui, model: &mut Model, seen: &mut Seen, response: &Response, size: 
     }
     if response.drag_stopped() {
         seen.grip = None;
+        seen.lost_grip = false;
         seen.dividing = false;
     }
     if response.clicked()
         && let Some(at) = response.interact_pointer_pos()
     {
-        model.choose(pick::at(model.scene(), time, &lens, inside(rect, at)));
+        seen.choose(pick::at(model.scene(), time, &lens, inside(rect, at)));
     }
 }
 
@@ -130,9 +137,9 @@ fn zoom(ui: &Ui, model: &mut Model, response: &Response) {
 /// Which way is where, and why one cannot.
 fn names(painter: &egui::Painter, rect: Rect, model: &Model, seen: &Seen) {
     let settings = &model.settings;
-    let text = |at: Pos2, align: Align2, text: &str, size: f32| {
+    let text = |at: Pos2, align: Align2, text: &str, size: f32, width: f32| {
         let font = FontId::proportional(size);
-        let galley = painter.layout(text.to_owned(), font, Color32::WHITE, rect.width() * 0.45);
+        let galley = painter.layout(text.to_owned(), font, Color32::WHITE, width);
         let area = align.anchor_size(at, galley.size());
         painter.rect_filled(area.expand2(vec2(6.0, 3.0)), 3.0, Color32::from_black_alpha(150));
         painter.galley(area.min, galley, Color32::WHITE);
@@ -141,16 +148,17 @@ fn names(painter: &egui::Painter, rect: Rect, model: &Model, seen: &Seen) {
         let x = if right { rect.right() - 12.0 } else { rect.left() + 12.0 };
         (pos2(x, rect.top() + 10.0), if right { Align2::RIGHT_TOP } else { Align2::LEFT_TOP })
     };
-    let middles = match settings.layout {
-        Layout::Split => [0.5 * settings.divider, 0.5 * (1.0 + settings.divider)],
-        _ => [0.5, 0.5],
+    // From where to where each side goes, as parts of the width.
+    let spans = match settings.layout {
+        Layout::Split => [(0.0, settings.divider), (settings.divider, 1.0)],
+        _ => [(0.0, 1.0), (0.0, 1.0)],
     };
     match settings.layout {
         Layout::Single => {}
         Layout::Split => {
             for (way, right) in settings.ways.iter().zip([false, true]) {
                 let (at, align) = corner(right);
-                text(at, align, &way.to_string(), 13.0);
+                text(at, align, &way.to_string(), 13.0, rect.width() * 0.45);
             }
             let x = divider_x(rect, model);
             painter.line_segment(
@@ -165,16 +173,22 @@ fn names(painter: &egui::Painter, rect: Rect, model: &Model, seen: &Seen) {
         }
         Layout::Difference => {
             let (at, align) = corner(false);
-            text(at, align, &format!("{} against {}", settings.ways[0], settings.ways[1]), 13.0);
-            overlay::error_legend(painter, rect, settings.error_scale);
+            let title = format!("{} against {}", settings.ways[0], settings.ways[1]);
+            text(at, align, &title, 13.0, rect.width() - 36.0);
+            if seen.sides.iter().all(|side| side.objection.is_none()) {
+                overlay::error_legend(painter, rect, settings.error_scale);
+            }
         }
     }
-    let sides = seen.sides.iter().take(settings.shown().len()).zip(middles);
-    for (row, (side, middle)) in sides.enumerate() {
+    let mut bottom = rect.bottom() - 14.0;
+    for (side, (left, right)) in seen.sides.iter().take(settings.shown().len()).zip(spans) {
         if let Some(objection) = &side.objection {
-            let drop = if settings.layout == Layout::Difference { 60.0 * row as f32 } else { 0.0 };
-            let at = pos2(rect.left() + rect.width() * middle, rect.center().y + drop);
-            text(at, Align2::CENTER_CENTER, objection, 14.0);
+            let at = pos2(rect.left() + rect.width() * 0.5 * (left + right), bottom);
+            let width = (rect.width() * (right - left) - 28.0).clamp(60.0, 480.0);
+            text(at, Align2::CENTER_BOTTOM, objection, 13.0, width);
+            if settings.layout == Layout::Difference {
+                bottom -= 64.0;
+            }
         }
     }
 }

@@ -7,6 +7,7 @@
 
 mod controls;
 mod dialogs;
+mod editing;
 mod files;
 mod keys;
 mod mouse;

@@ -17,7 +17,7 @@ use crate::viewer::{Desk, Viewer};
 const HOURS: Duration = Duration::from_secs(3600);
 
 /// Size of the window.
-const SIZE: &str = "800x480";
+const SIZE: &str = "760x460";
 
 fn image(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/images").join(name)
@@ -44,6 +44,14 @@ fn write(name: &str, shots: &[(Shot, u16)]) {
     writer.finish().expect("written");
 }
 
+/// Starts the viewer without dithering, which makes pictures many times as large.
+fn start<'a>(desk: &'a Desk, arguments: &[&str]) -> Viewer<'a> {
+    let folder = desk.file("config/antumbra");
+    std::fs::create_dir_all(folder).expect("a temporary folder");
+    desk.write("config/antumbra/viewer.json", r#"{ "settings": { "dither": false } }"#);
+    desk.view(arguments)
+}
+
 /// Drags from one point of the window to another and takes a shot at each step.
 fn drag(v: &mut Viewer<'_>, from: [f64; 2], to: [f64; 2], steps: u32, shots: &mut Vec<(Shot, u16)>) {
     v.move_to(from);
@@ -60,7 +68,7 @@ fn drag(v: &mut Viewer<'_>, from: [f64; 2], to: [f64; 2], steps: u32, shots: &mu
 #[ignore = "writes the pictures of docs/viewer.md"]
 fn tour() {
     let Some(desk) = Desk::new() else { return };
-    let mut v = desk.view(&["--fresh", "--size", SIZE]);
+    let mut v = start(&desk, &["--size", SIZE]);
     let mut shots = vec![(v.shot(), 100)];
     // A ball is dragged, and its shadows follow.
     let ball = v.vector("/objects/1/position");
@@ -83,7 +91,7 @@ fn tour() {
     drop(v);
     // What a soft shadow is made of.
     let scene = desk.write("ball.toml", BALL);
-    let mut v = desk.view(&["--fresh", "--size", SIZE, &scene.to_string_lossy()]);
+    let mut v = start(&desk, &["--size", SIZE, &scene.to_string_lossy()]);
     shots.push((v.shot(), 80));
     for (label, stays) in [("outlines", 80), ("tangent rays", 120)] {
         v.click("CheckBox", label);
@@ -103,13 +111,13 @@ fn tour() {
         ("viewer-map.png", "map", &["map from the light"]),
         ("viewer-conics.png", "analytic", &["outlines", "conics"]),
     ] {
-        let mut v = desk.view(&["--fresh", "--size", "1280x800", "--technique", technique]);
+        let mut v = start(&desk, &["--size", "1280x800", "--technique", technique]);
         for label in labels {
             v.click("CheckBox", label);
         }
         write(name, &[(v.shot(), 0)]);
     }
-    let mut v = desk.view(&["--fresh", "--size", "1280x800"]);
+    let mut v = start(&desk, &["--size", "1280x800"]);
     v.press_for("P", "frame times", |state| state["settings"]["timing"] == true);
     v.click("Button", "Measure all");
     v.wait("it measures", |state| !state["measuring"].is_null());

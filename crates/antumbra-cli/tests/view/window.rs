@@ -144,7 +144,10 @@ fn flat(frames: u64, scenes: usize) {
     let (warm, after) = (play(v, frames.min(500)), play(v, frames));
     eprintln!("{warm:.1} MiB when warm, {after:.1} MiB after {frames} frames more");
     // A frame that kept a kilobyte would take ten of these.
-    assert!(after < warm + 1.0 + frames as f64 * 1e-4, "frames keep memory: {warm:.1} MiB, then {after:.1} MiB");
+    assert!(
+        after < warm + 1.0 + frames as f64 * 1e-4,
+        "frames keep memory: {warm:.1} MiB, then {after:.1} MiB"
+    );
     // The allocator takes what the largest scene needs, and at first a little more with each round of the gallery.
     let (warm, after) = (leaf(v, scenes), leaf(v, scenes));
     eprintln!("{warm:.1} MiB after {scenes} scenes, {after:.1} MiB after as many more");

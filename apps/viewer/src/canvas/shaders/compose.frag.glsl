@@ -9,11 +9,17 @@ uniform int u_layout;       // 0 single, 1 split, 2 difference
 uniform float u_divider;
 uniform float u_exposure;
 uniform float u_scale;      // the error that has the last colour
+uniform float u_dither;     // from the least to the most of the noise
 uniform vec2 u_dim;         // factors on the two pictures
 
 vec3 srgb(vec3 linear) {
     vec3 x = clamp(linear, 0.0, 1.0);
     return mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x));
+}
+
+// Interleaved gradient noise, 0 to 1 (J. Jimenez, Next Generation Post Processing in Call of Duty, 2014).
+float noise(vec2 at) {
+    return fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715))));
 }
 
 void main() {
@@ -29,5 +35,6 @@ void main() {
         return;
     }
     bool is_right = u_layout == 1 && v_at.x > u_divider;
-    o_color = vec4(srgb(is_right ? right * u_dim.y : left * u_dim.x), 1.0);
+    vec3 color = srgb(is_right ? right * u_dim.y : left * u_dim.x);
+    o_color = vec4(color + (noise(gl_FragCoord.xy) - 0.5) * u_dither, 1.0);
 }
