@@ -52,6 +52,12 @@ fn start<'a>(desk: &'a Desk, arguments: &[&str]) -> Viewer<'a> {
     desk.view(arguments)
 }
 
+/// What the window shows once it has nothing more to say: numbers and legends come a frame after the picture.
+fn settled(v: &mut Viewer<'_>) -> Shot {
+    while v.lines_within(Duration::from_millis(400)) > 0 {}
+    v.shot()
+}
+
 /// Drags from one point of the window to another and takes a shot at each step.
 fn drag(v: &mut Viewer<'_>, from: [f64; 2], to: [f64; 2], steps: u32, shots: &mut Vec<(Shot, u16)>) {
     v.move_to(from);
@@ -86,8 +92,8 @@ fn tour() {
     drag(&mut v, left, right, 5, &mut shots);
     shots.push((v.shot(), 60));
     v.press_for("E", "error map", |state| state["settings"]["layout"] == "difference");
-    shots.push((v.shot(), 160));
-    write("viewer-error-map.png", &[(v.shot(), 0)]);
+    shots.push((settled(&mut v), 160));
+    write("viewer-error-map.png", &[(settled(&mut v), 0)]);
     drop(v);
     // What a soft shadow is made of.
     let scene = desk.write("ball.toml", BALL);
@@ -95,9 +101,9 @@ fn tour() {
     shots.push((v.shot(), 80));
     for (label, stays) in [("outlines", 80), ("tangent rays", 120)] {
         v.click("CheckBox", label);
-        shots.push((v.shot(), stays));
+        shots.push((settled(&mut v), stays));
     }
-    write("viewer-outlines.png", &[(v.shot(), 0)]);
+    write("viewer-outlines.png", &[(settled(&mut v), 0)]);
     for key in ["M", "M", "M", "M", "B", "B", "B", "B"] {
         let before = v.light(0).to_array();
         v.press_for(key, "moved", |state| state["lights"][0]["position"] != serde_json::json!(before));
@@ -115,16 +121,16 @@ fn tour() {
         for label in labels {
             v.click("CheckBox", label);
         }
-        write(name, &[(v.shot(), 0)]);
+        write(name, &[(settled(&mut v), 0)]);
     }
     let mut v = start(&desk, &["--size", "1280x800"]);
     v.press_for("P", "frame times", |state| state["settings"]["timing"] == true);
     v.click("Button", "Measure all");
     v.wait("it measures", |state| !state["measuring"].is_null());
     v.wait("all are measured", |state| state["measuring"].is_null());
-    write("viewer-times.png", &[(v.shot(), 0)]);
+    write("viewer-times.png", &[(settled(&mut v), 0)]);
     v.press_for("F1", "the help", |state| state["dialog"] == "help");
-    write("viewer-keys.png", &[(v.shot(), 0)]);
+    write("viewer-keys.png", &[(settled(&mut v), 0)]);
 }
 
 const BALL: &str = r#"
