@@ -214,6 +214,7 @@ impl Running {
         } else if now < self.busy_until {
             self.wake_at(Some(self.busy_until));
         }
+        self.wake_at(self.seen.error_due(model));
         Ok(())
     }
 

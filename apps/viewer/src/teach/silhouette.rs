@@ -1,78 +1,24 @@
 //! Casters as the technique `volume` has them, triangles, and their silhouettes.
 
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
 
+use antumbra::Occluder;
+use antumbra::math::PlaneFrame;
 use antumbra::math::mesh::Silhouette;
-use antumbra::math::{MeshError, PlaneFrame, Shape, TriangleMesh};
-use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4};
 
 use super::path::Path;
 use super::{Casting, Pair, Situation};
 
-/// Sides of a tessellated circle, as the techniques have them.
-const SEGMENTS: u32 = 128;
-
 /// A point this near the light's height, as a fraction of it, has its shadow at infinity.
 const AS_HIGH: f64 = 1e-6;
-
-/// The round shapes of size one, the disc and the cone with axis +Y.
-struct UnitShapes {
-    sphere: TriangleMesh,
-    disc: TriangleMesh,
-    cone: TriangleMesh,
-    rectangle: TriangleMesh,
-    triangle: TriangleMesh,
-}
-
-static UNIT: LazyLock<UnitShapes> = LazyLock::new(|| {
-    let made = |mesh: Result<TriangleMesh, MeshError>| mesh.expect("shapes of size one are meshes");
-    UnitShapes {
-        sphere: made(TriangleMesh::sphere(1.0, SEGMENTS)),
-        disc: made(TriangleMesh::disc(1.0, SEGMENTS)),
-        cone: made(TriangleMesh::cone(1.0, 1.0, SEGMENTS)),
-        rectangle: made(TriangleMesh::rectangle(2.0, 2.0)),
-        triangle: made(TriangleMesh::triangle([DVec3::ZERO, DVec3::X, DVec3::Z])),
-    }
-});
-
-/// A shape as a posed mesh; `None` for infinite planes.
-fn tessellated(shape: &Shape) -> Option<(&'static TriangleMesh, DMat4)> {
-    let unit: &'static UnitShapes = &UNIT;
-    let standing = |center: DVec3, axis: DVec3, scale: DVec3| {
-        let turn = DQuat::from_rotation_arc(DVec3::Y, axis.try_normalize()?);
-        Some(DMat4::from_scale_rotation_translation(scale, turn, center))
-    };
-    Some(match *shape {
-        Shape::Plane(_) => return None,
-        Shape::Sphere(s) => (
-            &unit.sphere,
-            DMat4::from_scale_rotation_translation(DVec3::splat(s.radius), DQuat::IDENTITY, s.center),
-        ),
-        Shape::Disc(s) => (&unit.disc, standing(s.center, s.normal, DVec3::splat(s.radius))?),
-        Shape::Cone(s) => {
-            let middle = s.base_center + s.axis * (0.5 * s.height);
-            (&unit.cone, standing(middle, s.axis, DVec3::new(s.radius, s.height, s.radius))?)
-        }
-        Shape::Rectangle(s) => {
-            let normal = s.half_forward.cross(s.half_right).normalize_or_zero();
-            let axes = DMat3::from_cols(s.half_right, normal, s.half_forward);
-            (&unit.rectangle, DMat4::from_mat3_translation(axes, s.center))
-        }
-        Shape::Triangle(s) => {
-            let [a, b, c] = s.vertices;
-            let normal = (c - a).cross(b - a).normalize_or_zero();
-            (&unit.triangle, DMat4::from_mat3_translation(DMat3::from_cols(b - a, normal, c - a), a))
-        }
-    })
-}
 
 /// The silhouette of the caster's triangles, seen from a light without area: chains of edges in the world, mostly loops.
 /// None for area lights, infinite planes and degenerate poses.
 pub(super) fn silhouette(situation: &Situation<'_>, pair: &Pair<'_>) -> Vec<Path<DVec3>> {
     let caster = match pair.casting {
         Casting::Nothing => None,
-        Casting::Shape(shape) => tessellated(&shape),
+        Casting::Shape(shape) => Occluder::new(shape).tessellated(),
         Casting::Mesh(index) => situation.mesh(index).map(|posed| (&*posed.mesh, posed.model)),
     };
     let Some((mesh, model)) = caster.filter(|_| pair.is_hard()) else { return Vec::new() };

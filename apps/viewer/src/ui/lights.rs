@@ -5,7 +5,7 @@ use antumbra_scene::{Light, LightKind, Scene};
 use egui::{Color32, ComboBox, RichText, Ui};
 
 use super::style::ACCENT;
-use super::{Seen, fields};
+use super::{Asked, Seen, fields};
 use crate::model::edit;
 use crate::model::pick::Item;
 use crate::model::{Model, command::Command};
@@ -29,22 +29,12 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &mut Seen) {
         }
         ui.label(RichText::new(light.kind.type_name()).weak());
     });
-    ui.horizontal(|ui| {
-        ui.menu_button("Add light", |ui| {
-            for kind in KINDS {
-                if ui.button(kind).clicked() {
-                    add(model, kind);
-                    ui.close();
-                }
-            }
-        });
-        let is_light = matches!(model.chosen, Some(Item::Light(_)));
-        ui.add_enabled_ui(is_light, |ui| {
-            if ui.button("Remove light").clicked() {
-                model.apply(Command::Delete);
-            }
-        });
-    });
+    let chosen = matches!(model.chosen, Some(Item::Light(_)));
+    match super::add_or_remove(ui, "light", &KINDS, chosen) {
+        Some(Asked::Add(kind)) => add(model, kind),
+        Some(Asked::Remove) => model.apply(Command::Delete),
+        None => {}
+    }
     if let Some(Item::Light(i)) = model.chosen
         && let Some(light) = model.scene().lights.get(i).cloned()
     {

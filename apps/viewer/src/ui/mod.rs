@@ -69,6 +69,10 @@ pub(crate) struct Seen {
     error_found: Option<Instant>,
 }
 
+/// How long an error is shown before it is found again: reading two pictures back takes time, and while the reference is
+/// refined there are ten new ones a second.
+const ERROR_LASTS: Duration = Duration::from_secs(1);
+
 impl Seen {
     /// Nothing was seen yet.
     pub(crate) fn new(info: &ContextInfo, clock: &'static str) -> Self {
@@ -124,13 +128,25 @@ impl Seen {
         model.timing.measuring().is_some() || model.timing.wants_frame(&model.settings, refused)
     }
 
+    /// Whether both sides show the scene as it is now.
+    fn can_compare(&self) -> bool {
+        self.traced.is_none_or(|(_, _, stale)| !stale) && self.sides_compare
+    }
+
+    /// When the error has to be found again, if it is shown and a side was drawn since.
+    pub(crate) fn error_due(&self, model: &Model) -> Option<Instant> {
+        let shown = model.settings.layout == Layout::Difference
+            && self.can_compare()
+            && self.error.is_some()
+            && self.error_is_old;
+        self.error_found.filter(|_| shown).map(|then| then + ERROR_LASTS)
+    }
+
     /// Whether the error of one side against the other is asked for and not known.
     pub(crate) fn wants_error(&self, model: &Model) -> bool {
-        let current = self.traced.is_none_or(|(_, _, stale)| !stale) && self.sides_compare;
-        // Reading two pictures back takes time: once a second is enough while the reference is refined.
-        let due = self.error_found.is_none_or(|then| then.elapsed() > Duration::from_secs(1));
+        let due = self.error_found.is_none_or(|then| then.elapsed() >= ERROR_LASTS);
         model.settings.layout == Layout::Difference
-            && current
+            && self.can_compare()
             && (self.error.is_none() || self.error_is_old && due)
     }
 }
@@ -220,4 +236,33 @@ fn list(ui: &mut Ui, name: &str, count: usize, mut row: impl FnMut(&mut Ui, usiz
             ui.horizontal(|ui| row(ui, i));
         }
     });
+}
+
+/// What a list is asked for.
+enum Asked {
+    /// One more, of a kind.
+    Add(&'static str),
+    /// What is chosen is to go.
+    Remove,
+}
+
+/// The row under a list: a menu of kinds to add, and a button that removes what is chosen.
+fn add_or_remove(ui: &mut Ui, what: &str, kinds: &[&'static str], chosen: bool) -> Option<Asked> {
+    let mut asked = None;
+    ui.horizontal(|ui| {
+        ui.menu_button(format!("Add {what}"), |ui| {
+            for kind in kinds {
+                if ui.button(*kind).clicked() {
+                    asked = Some(Asked::Add(kind));
+                    ui.close();
+                }
+            }
+        });
+        ui.add_enabled_ui(chosen, |ui| {
+            if ui.button(format!("Remove {what}")).clicked() {
+                asked = Some(Asked::Remove);
+            }
+        });
+    });
+    asked
 }

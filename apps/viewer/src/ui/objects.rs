@@ -4,7 +4,7 @@ use antumbra::glam::DVec3;
 use antumbra_scene::{Object, Part, Pose, Scene, Shape};
 use egui::{RichText, Ui};
 
-use super::{Seen, fields};
+use super::{Asked, Seen, fields};
 use crate::model::edit;
 use crate::model::pick::Item;
 use crate::model::{Model, command::Command};
@@ -35,22 +35,12 @@ pub(crate) fn show(ui: &mut Ui, model: &mut Model, seen: &mut Seen) {
         }
         ui.label(RichText::new(kind_name(object)).weak());
     });
-    ui.horizontal(|ui| {
-        ui.menu_button("Add object", |ui| {
-            for kind in SHAPES {
-                if ui.button(kind).clicked() {
-                    add(model, kind);
-                    ui.close();
-                }
-            }
-        });
-        let is_object = matches!(model.chosen, Some(Item::Object(_)));
-        ui.add_enabled_ui(is_object, |ui| {
-            if ui.button("Remove object").clicked() {
-                model.apply(Command::Delete);
-            }
-        });
-    });
+    let chosen = matches!(model.chosen, Some(Item::Object(_)));
+    match super::add_or_remove(ui, "object", &SHAPES, chosen) {
+        Some(Asked::Add(kind)) => add(model, kind),
+        Some(Asked::Remove) => model.apply(Command::Delete),
+        None => {}
+    }
     if let Some(Item::Object(i)) = model.chosen
         && let Some(object) = model.scene().objects.get(i).cloned()
     {

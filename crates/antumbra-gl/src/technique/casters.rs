@@ -77,6 +77,14 @@ pub(crate) fn planes<'a>(pass: &Pass<'a>) -> impl Iterator<Item = (Plane, u32)> 
     })
 }
 
+impl Occluder {
+    /// The triangles that the techniques with triangles take for the shape, and the matrix that puts them into the
+    /// world: affine, invertible. `None` for infinite planes, and for shapes without extent or with a NaN.
+    pub fn tessellated(&self) -> Option<(&'static TriangleMesh, DMat4)> {
+        caster_of(self).map(|caster| (caster.mesh, caster.model))
+    }
+}
+
 /// A shape as a posed mesh, under the same conditions as in [`casters`].
 pub(crate) fn caster_of(occluder: &Occluder) -> Option<Caster<'static>> {
     let unit: &'static UnitShapes = &UNIT;
