@@ -12,7 +12,7 @@ use winit::window::{Fullscreen, Window};
 use crate::app::Wake;
 use crate::canvas::lines::Stroke;
 use crate::canvas::map_view::MapPicture;
-use crate::canvas::{Canvas, Side, View};
+use crate::canvas::{Canvas, View};
 use crate::gl_window::GlWindow;
 use crate::model::Model;
 use crate::model::settings::{Antialiasing, Settings};
@@ -187,8 +187,8 @@ impl Running {
         model.aspect = f64::from(rect[2].max(1)) / f64::from(rect[3].max(1));
         self.show_title(model);
 
-        let sides = self.draw(model, rect, scale, size)?;
-        ui::timing::note(model, &sides, [rect[2], rect[3]]);
+        self.draw(model, rect, scale, size)?;
+        ui::timing::note(model, &self.seen.sides, [rect[2], rect[3]]);
         let primitives = self.context.tessellate(output.shapes, scale);
         let mut textures = output.textures_delta;
         self.painter.paint_and_update_textures(size, scale, &primitives, &mut textures);
@@ -198,11 +198,6 @@ impl Running {
             self.last_cost = start.elapsed();
         }
         self.frames += 1;
-        if sides != self.seen.sides {
-            // What is said of a picture is said in the frame after it.
-            self.seen.sides = sides;
-            self.window.window.request_redraw();
-        }
         if rect[2] > 0 && rect[3] > 0 && self.seen.wants_frame(model) {
             self.window.window.request_redraw();
         }
@@ -219,13 +214,7 @@ impl Running {
     }
 
     /// The scene in the window's framebuffer.
-    fn draw(
-        &mut self,
-        model: &Model,
-        rect: [i32; 4],
-        scale: f32,
-        size: [u32; 2],
-    ) -> Result<[Side; 2], ViewerError> {
+    fn draw(&mut self, model: &Model, rect: [i32; 4], scale: f32, size: [u32; 2]) -> Result<(), ViewerError> {
         let now = self.last_frame;
         let shown = Shown {
             scene: model.scene().clone(),
@@ -270,12 +259,15 @@ impl Running {
         self.seen.traced = view.traced.map(|t| (t.samples, t.target, t.stale));
         self.last_moved = (!still).then_some(start);
         self.show_map(map);
-        self.seen.frame(&sides, still);
+        if self.seen.frame(sides, still) {
+            // What is said of a picture is said in the frame after it.
+            self.window.window.request_redraw();
+        }
         if still && self.seen.wants_error(model) {
             let error = self.canvas.error(model.scene().image.exposure as f32);
             self.seen.found(error);
         }
-        Ok(sides)
+        Ok(())
     }
 
     /// Lines over the picture: marks, and what teaches.

@@ -57,9 +57,9 @@ fn add(model: &mut Model, kind: &str) {
 }
 
 fn editor(ui: &mut Ui, model: &mut Model, i: usize, mut light: Light) {
-    let scene: Scene = (**model.scene()).clone();
+    let scene = model.scene().clone();
     let mut changed = fields::name(ui, "name", &mut light.name, |text| {
-        let mut others = scene.clone();
+        let mut others = Scene::clone(&scene);
         others.lights.remove(i);
         Some(others.unique_light_name(text))
     });

@@ -40,8 +40,6 @@ pub(crate) struct Seen {
     pub(crate) traced: Option<(u32, u32, bool)>,
     /// Root mean square and largest difference of the two sides.
     pub(crate) error: Option<[f32; 2]>,
-    /// Whether both sides show what they are asked to.
-    sides_compare: bool,
     /// Whether a side was drawn since the error was found.
     error_is_old: bool,
     /// The named controls of the last frame, where somebody asks for them.
@@ -81,7 +79,6 @@ impl Seen {
             still: false,
             traced: None,
             error: None,
-            sides_compare: true,
             error_is_old: false,
             controls: Vec::new(),
             lesson: Default::default(),
@@ -102,17 +99,24 @@ impl Seen {
         self.choice = Some((item, false));
     }
 
-    /// Takes note of a frame.
-    pub(crate) fn frame(&mut self, sides: &[Side; 2], still: bool) {
+    /// Whether both sides show what they are asked to.
+    fn none_objects(&self) -> bool {
+        self.sides.iter().all(|side| side.objection.is_none())
+    }
+
+    /// Takes note of a frame; whether what became of its sides is another than in the one before.
+    pub(crate) fn frame(&mut self, sides: [Side; 2], still: bool) -> bool {
+        let changed = sides != self.sides;
         self.still = still;
-        self.sides_compare = sides.iter().all(|side| side.objection.is_none());
-        if sides.iter().any(|side| side.fresh) {
+        self.sides = sides;
+        if self.sides.iter().any(|side| side.fresh) {
             self.error_found = self.error_found.filter(|_| self.error.is_some());
             self.error_is_old = true;
         }
-        if !still || !self.sides_compare {
+        if !still || !self.none_objects() {
             self.error = None;
         }
+        changed
     }
 
     /// Takes note of the error.
@@ -130,7 +134,7 @@ impl Seen {
 
     /// Whether both sides show the scene as it is now.
     fn can_compare(&self) -> bool {
-        self.traced.is_none_or(|(_, _, stale)| !stale) && self.sides_compare
+        self.traced.is_none_or(|(_, _, stale)| !stale) && self.none_objects()
     }
 
     /// When the error has to be found again, if it is shown and a side was drawn since.

@@ -60,9 +60,9 @@ fn add(model: &mut Model, kind: &str) {
 }
 
 fn editor(ui: &mut Ui, model: &mut Model, i: usize, mut object: Object) {
-    let scene: Scene = (**model.scene()).clone();
+    let scene = model.scene().clone();
     let mut changed = fields::name(ui, "name", &mut object.name, |text| {
-        let mut others = scene.clone();
+        let mut others = Scene::clone(&scene);
         others.objects.remove(i);
         Some(others.unique_object_name(text))
     });

@@ -175,7 +175,7 @@ fn names(painter: &egui::Painter, rect: Rect, model: &Model, seen: &Seen) {
             let (at, align) = corner(false);
             let title = format!("{} against {}", settings.ways[0], settings.ways[1]);
             text(at, align, &title, 13.0, rect.width() - 36.0);
-            if seen.sides.iter().all(|side| side.objection.is_none()) {
+            if seen.none_objects() {
                 overlay::error_legend(painter, rect, settings.error_scale);
             }
         }
