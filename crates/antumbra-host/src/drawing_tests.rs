@@ -11,21 +11,10 @@ use glow::HasContext;
 
 use crate::describe::SEGMENTS;
 use crate::picture::SurfaceCopy;
-use crate::{Api, Buffers, ColorFormat, HeadlessContext, Setting, Stage};
+use crate::{Api, Buffers, ColorFormat, Setting, Stage, TestContext};
 
 const WIDTH: u32 = 192;
 const HEIGHT: u32 = 128;
-
-fn context(api: Api) -> Option<HeadlessContext> {
-    match HeadlessContext::new(api) {
-        Ok(context) => Some(context),
-        Err(e) => {
-            assert!(std::env::var_os("ANTUMBRA_REQUIRE_GL").is_none(), "{e}");
-            eprintln!("skipped: {e}");
-            None
-        }
-    }
-}
 
 fn mesh(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Shape {
     let positions = positions.iter().map(|p| DVec3::from(*p)).collect();
@@ -188,7 +177,7 @@ fn draw(stage: &mut Stage, setting: &Setting, samples: u32) {
 }
 
 fn surfaces_agree(api: Api) {
-    let Some(context) = context(api) else { return };
+    let Some(context) = TestContext::new(api) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     for (shape, turn, exact) in shapes() {
         for eye in EYES.into_iter().chain(inside(&shape)) {
@@ -219,7 +208,7 @@ fn triangles_are_where_the_reference_sees_them_with_opengl_es() {
 /// pass holds, with one sample and with four.
 #[test]
 fn triangles_are_lit_as_the_reference_lights_them() {
-    let Some(context) = context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     for (shape, turn, _) in shapes() {
         for (lights, samples) in [(1, 1), (600, 1), (2, 4)] {
@@ -266,7 +255,7 @@ fn buffers(gl: &glow::Context) -> usize {
 
 #[test]
 fn buffers_are_made_once_and_deleted() {
-    let Some(context) = context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let gl = context.gl();
     let before = buffers(gl);
     let mut stage = Stage::new(gl).expect("a stage");

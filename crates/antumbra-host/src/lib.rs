@@ -20,6 +20,7 @@ mod stage;
 mod state;
 mod surface;
 mod targets;
+mod test_context;
 mod timer;
 
 pub use context::{Api, ContextInfo, HeadlessContext};
@@ -30,4 +31,5 @@ pub use picture::{RenderOptions, Rendered};
 pub use setting::Setting;
 pub use stage::{Buffers, Picture, Stage};
 pub use targets::ColorFormat;
+pub use test_context::TestContext;
 pub use timer::FrameTimer;

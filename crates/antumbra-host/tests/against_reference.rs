@@ -3,7 +3,7 @@
 mod common;
 
 use antumbra::{Soft, Technique};
-use antumbra_host::{Api, RenderOptions, Stage};
+use antumbra_host::{Api, RenderOptions, Stage, TestContext};
 use antumbra_reference::Tracer;
 use antumbra_scene::Scene;
 use antumbra_testkit::metrics;
@@ -73,7 +73,7 @@ fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
 /// With shapes that `analytic` draws in closed form.
 #[test]
 fn awkward_views_are_classified_right() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let mut all = 0;
     for (name, scene) in common::awkward::awkward_views(&[], "") {
@@ -87,7 +87,7 @@ fn awkward_views_are_classified_right() {
 }
 
 fn classify(api: Api, seeds: std::ops::Range<u64>) {
-    let Some(context) = common::context(api) else { return };
+    let Some(context) = TestContext::new(api) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let scenes = seeds.end - seeds.start;
     let (mut wrong, mut squares, mut edges, mut lights) = (0, 0.0, 0, 0);
@@ -116,7 +116,7 @@ fn classify(api: Api, seeds: std::ops::Range<u64>) {
 /// a float32 ray puts on the other side of a crease.
 #[test]
 fn pictures_are_the_traced_ones() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let gallery = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let files =

@@ -4,7 +4,7 @@
 mod common;
 
 use antumbra::{Soft, Technique};
-use antumbra_host::{Api, RenderOptions, Stage, objection};
+use antumbra_host::{Api, RenderOptions, Stage, TestContext, objection};
 use antumbra_reference::Tracer;
 use antumbra_scene::Scene;
 use antumbra_testkit::metrics;
@@ -87,7 +87,7 @@ fn exact_scene(seed: u64) -> Scene {
 #[test]
 fn discs_and_triangles_are_the_traced_ones() {
     let scenes = std::env::var("ANTUMBRA_COMPOSITE_SCENES").map_or(SCENES, |n| n.parse().expect("a number"));
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let (mut wrong, mut squares, mut edges) = (0, 0.0, 0);
     for seed in 0..scenes {
@@ -127,7 +127,7 @@ fn gallery(name: &str) -> Scene {
 /// part, of all channels alike.
 #[test]
 fn the_papers_scenes_are_painted() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let most = stage.shadows().caps().max_samples.min(4);
     for name in ["primitives-light-above", "primitives-light-aside", "sphere-two-lights", "cone-two-lights"] {

@@ -3,7 +3,7 @@
 mod common;
 
 use antumbra::Technique;
-use antumbra_host::{Api, RenderOptions, Stage};
+use antumbra_host::{Api, RenderOptions, Stage, TestContext};
 use antumbra_reference::{Sampling, Tracer};
 use antumbra_scene::Scene;
 use antumbra_testkit::metrics::{edge_band, misclassified, rms};
@@ -89,7 +89,7 @@ fn wrong(stage: &mut Stage, scene: &Scene, technique: &str) -> Wrong {
 
 /// Every light of every scene with each technique.
 fn tally<const N: usize>(scenes: impl Iterator<Item = Scene>, techniques: [&str; N]) -> Option<[Wrong; N]> {
-    let context = common::context(Api::Gl33)?;
+    let context = TestContext::new(Api::Gl33)?;
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let mut tally = [Wrong::default(); N];
     for scene in scenes {
@@ -192,7 +192,7 @@ fn still_life() -> Scene {
 /// their shadows.
 #[test]
 fn biases_trade_acne_against_gaps() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let scene = still_life();
     for size in [512, 2048] {
@@ -218,7 +218,7 @@ fn biases_trade_acne_against_gaps() {
 /// A wider filter smooths edges: nearer to the pixel's true area than stairs are, at a map so small that texels show.
 #[test]
 fn filters_smooth_stairs() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let scene = still_life();
     let (width, height) = (scene.image.width, scene.image.height);
@@ -242,7 +242,7 @@ fn filters_smooth_stairs() {
 /// pixels that are partly lit, the error is a fraction of the penumbra's own spread, which is 0.29 for an even ramp.
 #[test]
 fn penumbrae_are_near_the_traced_ones() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     for (name, light) in [
         ("ball", "type = \"sphere\"\nradius = 0.4"),

@@ -3,7 +3,7 @@
 mod common;
 
 use antumbra::{Soft, Technique};
-use antumbra_host::{Api, RenderOptions, Stage, describe};
+use antumbra_host::{Api, RenderOptions, Stage, TestContext, describe};
 use antumbra_reference::{Ray, Sampling, Tracer};
 use antumbra_scene::Scene;
 use antumbra_testkit::metrics::{edge_band, misclassified};
@@ -104,7 +104,7 @@ fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
 
 /// Compares scenes, and sees to it that there is something to judge.
 fn classify(what: &str, api: Api, scenes: impl Iterator<Item = (String, Scene)>) {
-    let Some(context) = common::context(api) else { return };
+    let Some(context) = TestContext::new(api) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let mut all = Found::default();
     for (name, scene) in scenes {

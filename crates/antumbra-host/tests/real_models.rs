@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use antumbra::math::TriangleMesh;
 use antumbra::math::mesh::Silhouette;
-use antumbra_host::{Api, RenderOptions, Stage};
+use antumbra_host::{Api, RenderOptions, Stage, TestContext};
 use antumbra_reference::Tracer;
 use antumbra_scene::{Mesh, Scene, Shape};
 use glam::{DVec3, Vec3};
@@ -137,7 +137,7 @@ fn files_that_are_no_meshes_say_why() {
 #[test]
 fn a_model_is_drawn_as_it_is_traced() {
     let Some(folder) = folder() else { return };
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let text = format!(
         r#"
         ambient = [0.1, 0.1, 0.1]

@@ -4,7 +4,7 @@ mod common;
 
 use antumbra::glam::DVec3;
 use antumbra::{Area, Pattern, Soft, Technique, light_points};
-use antumbra_host::{Api, RenderOptions, Stage, objection};
+use antumbra_host::{Api, RenderOptions, Stage, TestContext, objection};
 use antumbra_reference::{Ray, Surface, Tracer};
 use antumbra_scene::{Light, LightKind, Scene};
 use rayon::prelude::*;
@@ -114,7 +114,7 @@ fn traced(scene: &Scene, count: u32, pattern: Pattern) -> Vec<Option<(usize, Vec
 /// half floats that masks of area lights are, and the rounding of the sums.
 #[test]
 fn averages_are_those_of_the_same_points() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     for light in LIGHTS {
         let scene = scene(light);
@@ -163,7 +163,7 @@ fn error(drawn: &[f32], truth: &[Option<f64>]) -> f64 {
 /// (16), .0125 (64) and .0042 (256). A ball's fixed set, spread in three dimensions, is up to 1.6 times as far off.
 #[test]
 fn more_points_come_nearer_to_the_truth() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     for light in LIGHTS {
         let scene = scene(light);
@@ -201,7 +201,7 @@ fn more_points_come_nearer_to_the_truth() {
 /// A light that is next to nothing casts the hard shadow, whatever the pattern.
 #[test]
 fn points_that_coincide_give_the_hard_shadow() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let hard = scene("type = \"point\"\nposition = [1.0, 4.0, 0.5]");
     let tiny = scene("type = \"sphere\"\nposition = [1.0, 4.0, 0.5]\nradius = 1e-5");

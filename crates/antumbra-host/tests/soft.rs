@@ -3,7 +3,7 @@
 mod common;
 
 use antumbra::{Soft, Technique};
-use antumbra_host::{Api, RenderOptions, Stage};
+use antumbra_host::{Api, RenderOptions, Stage, TestContext};
 use antumbra_reference::{Ray, Tracer};
 use antumbra_scene::Scene;
 use rayon::prelude::*;
@@ -149,7 +149,7 @@ fn more() -> u64 {
 }
 
 fn compare_all(light: &str, shapes: &[&str], scenes: u64, technique: Technique) -> Option<Found> {
-    let context = common::context(Api::Gl33)?;
+    let context = TestContext::new(Api::Gl33)?;
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let mut found = Found::default();
     for seed in 0..scenes {

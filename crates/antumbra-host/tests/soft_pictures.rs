@@ -7,7 +7,7 @@ use antumbra::glam::DVec3;
 use antumbra::math::Shape;
 use antumbra::math::soft::{AreaLight, Nodes, visibility};
 use antumbra::{Area, Soft, Technique};
-use antumbra_host::{Api, RenderOptions, Rendered, Stage, describe};
+use antumbra_host::{Api, RenderOptions, Rendered, Stage, TestContext, describe};
 use antumbra_reference::{Ray, Surface, Tracer};
 use antumbra_scene::Scene;
 use exr::prelude::*;
@@ -74,7 +74,7 @@ fn coarse(fine: &[[f32; 3]], width: usize) -> Vec<[f32; 3]> {
 /// holds too.
 #[test]
 fn mitsuba() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../antumbra-reference/tests/mitsuba");
     let table = std::fs::read_to_string(folder.join("noise.csv")).expect("the committed table");
@@ -176,7 +176,7 @@ const DIM: f64 = 0.02;
 /// So that slowness does not pass for smoothness, on a grid of penumbra pixels the change is the true one within 2/255.
 #[test]
 fn a_light_moved_a_little_changes_little() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     const BOUND: f64 = 2.0 / 255.0;
     for (number, about) in SETUPS.into_iter().enumerate() {
@@ -250,7 +250,7 @@ const ROUNDING: f64 = 1.1 / 2048.0;
 /// all rows within a quarter of 1/255 at the root mean square.
 #[test]
 fn penumbrae_are_smooth() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let nodes = Nodes::<f64>::new(200);
     for about in SETUPS {

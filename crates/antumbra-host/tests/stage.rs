@@ -6,7 +6,8 @@ use antumbra::glam::DVec3;
 use antumbra::technique::composite::Component;
 use antumbra::{Soft, Technique};
 use antumbra_host::{
-    Api, Buffers, ColorFormat, HostError, Picture, RenderOptions, Rendered, Setting, Stage, objection,
+    Api, Buffers, ColorFormat, HostError, Picture, RenderOptions, Rendered, Setting, Stage, TestContext,
+    objection,
 };
 use antumbra_scene::Scene;
 use glow::HasContext;
@@ -139,7 +140,7 @@ fn spoil(gl: &glow::Context) {
 fn what_others_leave_in_the_context_changes_nothing() {
     let scene = scene("type = \"point\"");
     for (api, msaa) in [(Api::Gl33, 1), (Api::Gl33, 4), (Api::Gles30, 1)] {
-        let Some(context) = common::context(api) else { return };
+        let Some(context) = TestContext::new(api) else { return };
         let gl = context.gl();
         let mut stage = Stage::new(gl).expect("a stage");
         let clean = render(&mut stage, &scene, "map", msaa);
@@ -193,7 +194,7 @@ fn bytes(gl: &glow::Context, picture: &Picture) -> Vec<u8> {
 /// The colour can be had as a texture, with what was added to it, and the surface too.
 #[test]
 fn what_was_drawn_is_there_to_be_shown() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let gl = context.gl();
     let mut stage = Stage::new(gl).expect("a stage");
     stage.set_technique(Technique::parse("map").expect("a technique")).expect("the driver can");
@@ -230,7 +231,7 @@ fn mesh_ids(setting: &Setting) -> Vec<u64> {
 /// A mesh is made once for all moments that show its shape, and forgotten when no setting has it.
 #[test]
 fn meshes_are_kept_while_they_are_used() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let scene = scene("type = \"point\"");
     let mut setting = |scene: &Scene, time| stage.setting(scene, time, ASPECT).expect("a setting");
@@ -259,7 +260,7 @@ fn meshes_are_kept_while_they_are_used() {
 /// A setting says of itself what a technique cannot do of it, in the same words as from the scene.
 #[test]
 fn settings_know_what_techniques_refuse() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let mut refused = 0;
     for light in ["type = \"point\"", "type = \"sphere\"\nradius = 0.4"] {
@@ -290,7 +291,7 @@ fn settings_know_what_techniques_refuse() {
 /// Components put somewhere by hand reach the technique.
 #[test]
 fn components_move_the_penumbra() {
-    let Some(context) = common::context(Api::Gl33) else { return };
+    let Some(context) = TestContext::new(Api::Gl33) else { return };
     let gl = context.gl();
     let mut stage = Stage::new(gl).expect("a stage");
     stage.set_technique(Technique::parse("composite").expect("a technique")).expect("the driver can");

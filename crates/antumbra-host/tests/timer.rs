@@ -2,7 +2,7 @@
 
 mod common;
 
-use antumbra_host::{Api, FrameTimer};
+use antumbra_host::{Api, FrameTimer, TestContext};
 use glow::HasContext;
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use std::time::Duration;
 #[test]
 fn frames_take_time_and_may_fail() {
     for api in [Api::Gl33, Api::Gles30] {
-        let Some(context) = common::context(api) else { return };
+        let Some(context) = TestContext::new(api) else { return };
         let gl = context.gl().clone();
         let info = context.info();
         let mut timer = FrameTimer::new(&gl, &info).expect("a timer");

@@ -3,24 +3,10 @@
 
 pub(crate) mod awkward;
 
-use antumbra_host::{Api, HeadlessContext};
 use antumbra_reference::{Sampling, Tracer};
 use antumbra_scene::Scene;
 use antumbra_testkit::metrics::edge_band;
 use antumbra_testkit::truth;
-
-/// A context, or `None` where there is no OpenGL, said aloud; with `ANTUMBRA_REQUIRE_GL` that is a
-/// failure.
-pub(crate) fn context(api: Api) -> Option<HeadlessContext> {
-    match HeadlessContext::new(api) {
-        Ok(context) => Some(context),
-        Err(e) => {
-            assert!(std::env::var_os("ANTUMBRA_REQUIRE_GL").is_none(), "{e}");
-            eprintln!("skipped: {e}");
-            None
-        }
-    }
-}
 
 /// One light's visibility as the reference sees it.
 pub(crate) struct Truth {

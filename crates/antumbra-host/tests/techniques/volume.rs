@@ -1,10 +1,9 @@
 //! `volume`, in every way of counting.
 
 use crate::classify::{Classified, classify};
-use crate::common;
 use crate::common::awkward::awkward_views;
 use antumbra::Technique;
-use antumbra_host::{Api, Stage};
+use antumbra_host::{Api, Stage, TestContext};
 use antumbra_scene::Scene;
 use antumbra_testkit::random_mesh_scene::{RandomMeshScene, random_mesh_scene};
 use antumbra_testkit::random_scene::{RandomScene, random_scene};
@@ -25,7 +24,7 @@ fn countings() -> Vec<Technique> {
 
 /// Draws scenes in all ways; none may be wrong anywhere.
 fn assert_right(api: Api, scenes: impl IntoIterator<Item = (String, Scene)>) {
-    let Some(context) = common::context(api) else { return };
+    let Some(context) = TestContext::new(api) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let techniques = countings();
     let mut all = vec![Classified::default(); techniques.len()];
