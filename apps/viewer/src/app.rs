@@ -12,16 +12,8 @@ use crate::model::settings::Settings;
 use crate::model::{Model, Request};
 use crate::remembered::Remembered;
 use crate::running::{Opening, Running, put};
+use crate::wake::Wake;
 use crate::{Options, ViewerError, report};
-
-/// What wakes the loop from outside.
-#[derive(Debug)]
-pub(crate) enum Wake {
-    /// The interface wants a frame after a while.
-    After(Duration),
-    /// The reference has a new picture.
-    Traced,
-}
 
 /// Opens the window and handles its events until it closes.
 ///
@@ -58,7 +50,7 @@ pub(crate) fn run(options: Options) -> Result<(), ViewerError> {
 fn model(options: &Options, remembered: &Remembered) -> Result<Model, ViewerError> {
     let mut settings: Settings = remembered.settings.clone();
     if let Some(technique) = &options.technique {
-        settings.ways[0] = technique.parse().map_err(ViewerError::Option)?;
+        settings.ways[0] = technique.parse()?;
     }
     if let Some(path) = &options.scene {
         return Ok(Model::new(Document::load(path)?, settings, options.gallery.clone()));
@@ -66,7 +58,7 @@ fn model(options: &Options, remembered: &Remembered) -> Result<Model, ViewerErro
     let named = options.gallery.iter().find(|entry| Some(entry.name) == options.first.as_deref());
     let document = match named.or(options.gallery.first()) {
         Some(entry) => entry.document()?,
-        None => return Err(ViewerError::Option("there is no gallery; give a scene file".into())),
+        None => return Err(ViewerError::NoScene),
     };
     let mut model = Model::new(document, settings, options.gallery.clone());
     if let Some(source) = remembered.source() {

@@ -18,8 +18,11 @@ pub enum ViewerError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// An option that makes no sense.
-    #[error("{0}")]
-    Option(String),
+    #[error(transparent)]
+    Option(#[from] antumbra::OptionError),
+    /// There is nothing to show.
+    #[error("there is no gallery; give a scene file")]
+    NoScene,
     /// Standard output does not take the state.
     #[error("standard output: {0}")]
     Stdout(std::io::Error),

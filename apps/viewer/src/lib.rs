@@ -6,6 +6,7 @@
 
 mod app;
 mod canvas;
+mod controls;
 mod error;
 mod gl_window;
 mod model;
@@ -16,6 +17,7 @@ mod running;
 mod screenshot;
 mod teach;
 mod ui;
+mod wake;
 
 pub use error::ViewerError;
 

@@ -9,7 +9,6 @@ use winit::dpi::LogicalSize;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, Window};
 
-use crate::app::Wake;
 use crate::canvas::lines::Stroke;
 use crate::canvas::map_view::MapPicture;
 use crate::canvas::{Canvas, View};
@@ -20,7 +19,8 @@ use crate::model::way::Way;
 use crate::reference::Refinement;
 use crate::ui::teaching::Lesson;
 use crate::ui::{self, MapImage, Seen};
-use crate::{ViewerError, report};
+use crate::wake::Wake;
+use crate::{ViewerError, controls, report};
 
 /// What exists while there is a window. Fields are dropped in order: the window with its context last.
 pub(crate) struct Running {
@@ -179,7 +179,7 @@ impl Running {
         self.state.handle_platform_output(&self.window.window, {
             let mut platform = output.platform_output;
             if let Some(update) = platform.accesskit_update.take().filter(|_| json) {
-                self.seen.controls = report::controls(&update, f64::from(scale));
+                self.seen.controls = controls::controls(&update, f64::from(scale));
             }
             platform
         });

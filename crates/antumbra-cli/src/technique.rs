@@ -30,7 +30,8 @@ impl Technique {
     /// What is wrong with it, and which names there are.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         if let Some((technique, soft)) = text.split_once('+') {
-            return Self::parse(technique)?.with_soft(soft.parse()?);
+            return Self::parse(technique)?
+                .with_soft(soft.parse::<Soft>().map_err(|error| error.to_string())?);
         }
         match text.split(':').next() {
             Some(RAYTRACED) if text == RAYTRACED => Ok(Self::Raytraced),
@@ -39,7 +40,7 @@ impl Technique {
                 "there is no technique `{name}`; the techniques are {} and {RAYTRACED}",
                 antumbra::Technique::NAMES.join(", ")
             )),
-            _ => antumbra::Technique::parse(text).map(Self::from),
+            _ => antumbra::Technique::parse(text).map(Self::from).map_err(|error| error.to_string()),
         }
     }
 

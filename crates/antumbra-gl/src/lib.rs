@@ -1,42 +1,30 @@
 //! Shadows for an OpenGL renderer of your own.
 //!
 //! The crate `antumbra` re-exports this one; its documentation has the quick start.
+//!
+//! In rooms, each of which knows those below it alone: the renderer, the techniques, the masks they draw into, OpenGL, the
+//! screen, and what the host says.
 
-mod caps;
-mod error;
-mod frame;
-mod host_target;
-mod lights;
-mod mesh_buffers;
-mod overlay;
-mod pairs;
-mod proxy;
+mod gl;
+mod input;
+mod masks;
 mod renderer;
-mod resources;
-mod results;
-mod sampler;
-mod samples;
-mod scenery;
-mod shader;
-mod shading;
-mod soft_pairs;
-mod state;
-mod stencil;
-mod surface;
+mod screen;
 pub mod technique;
-mod tiles;
-mod union;
-mod view;
 
-pub use caps::{Caps, Tier};
-pub use error::Error;
-pub use frame::{Camera, DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, Surface};
-pub use lights::ShaderLight;
-pub use overlay::Encoding;
-pub use pairs::BATCH_LIGHTS;
+#[cfg(test)]
+mod program_tests;
+
+pub use gl::{Caps, Tier};
+pub use input::{
+    Allowed, Area, Camera, Choice, Component, DepthFormat, Encoding, Error, Frame, FrameFault, Image, Light,
+    LightFault, MeshOccluder, NO_SHADOW, NormalSpace, Normals, Occluder, OptionError, OptionInfo, Part,
+    Pattern, Reason, Receiver, ReceiverShape, Refusal, Resource, Scenery, Soft, Surface, Unsupported,
+    components,
+};
+pub use masks::{
+    BATCH_LIGHTS, DepthMap, DepthScale, IRRADIANCE_GLSL, MapFace, MaskBatch, ShaderLight, Stats,
+    light_points, sample_weight,
+};
 pub use renderer::Renderer;
-pub use results::{MaskBatch, Stats};
-pub use samples::{Pattern, Soft, light_points, sample_weight};
-pub use scenery::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery};
-pub use shading::IRRADIANCE_GLSL;
 pub use technique::Technique;

@@ -3,12 +3,9 @@
 use crate::HostError;
 use crate::meshes::Meshes;
 use antumbra::glam::{DMat4, DVec3};
-use antumbra::math::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle, TriangleMesh};
+use antumbra::math::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle};
 use antumbra::{Area, Light, MeshOccluder, Occluder, Receiver, ReceiverShape, Scenery};
 use antumbra_scene::{self as scene, LightKind, Moment, Scene};
-
-/// Sides of a tessellated circle, as antumbra's techniques have them for the shapes they tessellate.
-pub(crate) const SEGMENTS: u32 = 128;
 
 /// The lights, occluders and receivers of one moment. Ids are the primitive's index plus one.
 #[derive(Clone, Debug, Default)]
@@ -98,28 +95,6 @@ pub fn light(light: &scene::Light) -> Light {
             let (half_right, half_up) = (right * (width * 0.5), up * (height * 0.5));
             at(Area::Rectangle { direction, half_right, half_up })
         }
-    }
-}
-
-/// The triangles of a shape that antumbra has no shape for, in its own space.
-pub(crate) fn tessellated(shape: &scene::Shape) -> Result<TriangleMesh, antumbra::math::MeshError> {
-    match *shape {
-        scene::Shape::Plane => Err(antumbra::math::MeshError::NoTriangles),
-        scene::Shape::Rectangle { width, depth } => TriangleMesh::rectangle(width, depth),
-        scene::Shape::Disc { radius } => TriangleMesh::disc(radius, SEGMENTS),
-        scene::Shape::Triangle { vertices } => TriangleMesh::triangle(vertices),
-        scene::Shape::Sphere { radius } => TriangleMesh::sphere(radius, SEGMENTS),
-        scene::Shape::Ellipsoid { radii } => TriangleMesh::ellipsoid(radii, SEGMENTS),
-        scene::Shape::Cone { radius, height } => TriangleMesh::cone(radius, height, SEGMENTS),
-        scene::Shape::Cylinder { radius, height, radius_top } => {
-            TriangleMesh::cylinder(radius, height, radius_top, SEGMENTS)
-        }
-        scene::Shape::Capsule { radius, height } => TriangleMesh::capsule(radius, height, SEGMENTS),
-        scene::Shape::Box { size } => TriangleMesh::cuboid(size),
-        scene::Shape::Torus { major_radius, minor_radius } => {
-            TriangleMesh::torus(major_radius, minor_radius, SEGMENTS)
-        }
-        scene::Shape::Mesh(ref mesh) => TriangleMesh::new(mesh.positions.clone(), mesh.triangles.clone()),
     }
 }
 

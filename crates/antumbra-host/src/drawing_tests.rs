@@ -9,8 +9,8 @@ use antumbra_scene::{Camera, Image, Light, LightKind, Mesh, Object, Part, Pose, 
 use glam::DQuat;
 use glow::HasContext;
 
-use crate::describe::SEGMENTS;
 use crate::picture::SurfaceCopy;
+use crate::tessellate::SEGMENTS;
 use crate::{Api, Buffers, ColorFormat, Setting, Stage, TestContext};
 
 const WIDTH: u32 = 192;

@@ -20,6 +20,7 @@ mod stage;
 mod state;
 mod surface;
 mod targets;
+mod tessellate;
 mod test_context;
 mod timer;
 

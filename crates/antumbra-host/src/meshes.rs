@@ -8,7 +8,7 @@ use std::sync::Arc;
 use antumbra::math::{MeshError, TriangleMesh};
 use antumbra_scene::{Mesh, Shape};
 
-use crate::describe::tessellated;
+use crate::tessellate::tessellated;
 
 /// What tells shapes that become triangles apart.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -2,8 +2,7 @@
 
 use crate::HostError;
 use crate::describe::{Described, describe};
-use antumbra::technique::Part;
-use antumbra::{Soft, Technique};
+use antumbra::{Part, Soft, Technique};
 use antumbra_scene::{Moment, Scene};
 
 /// What a technique cannot do of a scene: names the object, and what can. `None` if it can do it.
@@ -28,7 +27,7 @@ pub(crate) fn objection_to<'a>(
     soft: Soft,
 ) -> Option<HostError> {
     let scenery = described.scenery();
-    let refusal = soft.refusal(technique, &scenery)?;
+    let refusal = technique.refusal_with(soft, &scenery)?;
     let owner = |id: u32| moment.primitives.get((id as usize).checked_sub(1)?);
     let named = |id: u32| match owner(id).and_then(|primitive| name(primitive.object)) {
         Some(name) => format!("object \"{name}\""),
@@ -50,13 +49,13 @@ pub(crate) fn objection_to<'a>(
             }
             named(id)
         }
-        Part::Receivers => "the scene".into(),
         Part::Options => "the options".into(),
+        _ => "the scene".into(),
     };
-    let able = Technique::all().filter(|other| soft.refusal(other, &scenery).is_none());
+    let able = Technique::all().filter(|other| other.refusal_with(soft, &scenery).is_none());
     let mut names: Vec<&str> = able.map(|other| other.name()).collect();
     names.push("raytraced");
     let sampled = Soft::samples(16);
-    let samples = soft == Soft::Native && sampled.refusal(technique, &scenery).is_none();
+    let samples = soft == Soft::Native && technique.refusal_with(sampled, &scenery).is_none();
     Some(HostError::Unsupported { object, what, able: names, sampled: samples.then_some(sampled) })
 }

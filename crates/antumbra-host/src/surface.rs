@@ -4,7 +4,7 @@
 use antumbra::glam::{DVec3, DVec4, Vec3};
 use antumbra_scene::Shape;
 
-use crate::describe::tessellated;
+use crate::tessellate::tessellated;
 
 /// A corner of a triangle as the shader reads it.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
@@ -91,7 +91,7 @@ fn normal(shape: &Shape, p: DVec3, triangle: &[DVec3; 3], facet: DVec3) -> DVec3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::describe::SEGMENTS;
+    use crate::tessellate::SEGMENTS;
 
     #[test]
     fn normals_are_of_the_true_surface() {

@@ -2,8 +2,8 @@
 
 mod common;
 
+use antumbra::Component;
 use antumbra::glam::DVec3;
-use antumbra::technique::composite::Component;
 use antumbra::{Soft, Technique};
 use antumbra_host::{
     Api, Buffers, ColorFormat, HostError, Picture, RenderOptions, Rendered, Setting, Stage, TestContext,

@@ -66,6 +66,7 @@ mod degrees;
 mod error;
 pub mod limits;
 mod mesh;
+mod mesh_builder;
 mod mesh_gltf;
 mod mesh_obj;
 mod model;
@@ -82,7 +83,6 @@ mod text;
 mod tree;
 mod unit;
 mod update;
-mod update_list;
 mod values;
 mod write;
 

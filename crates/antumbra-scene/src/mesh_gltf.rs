@@ -15,7 +15,7 @@ use gltf::json::scene::Node;
 use gltf::json::validation::Checked;
 
 use crate::limits::MAX_MESH_BYTES;
-use crate::mesh::{Builder, MeshError, read_file};
+use crate::mesh_builder::{Builder, MeshError, read_file};
 use crate::text::quoted;
 
 /// Adds the triangles of a glTF file to `mesh`. `folder` is where its buffers are looked for.

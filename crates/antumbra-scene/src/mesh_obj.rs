@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use crate::mesh::{Builder, MeshError};
+use crate::mesh_builder::{Builder, MeshError};
 
 /// Adds the triangles of an OBJ file to `mesh`.
 pub(crate) fn read(bytes: &[u8], mesh: &mut Builder) -> Result<(), MeshError> {

@@ -1,13 +1,15 @@
 //! Changing the text of a scene file where the scene has changed, and nowhere else.
 
+mod list;
+
 use std::path::Path;
 
 use toml_edit::{Decor, DocumentMut, InlineTable, Item, RawString, Table, TableLike, Value};
 
 use crate::Scene;
 use crate::tree::{self, Entry, Node, as_parts};
-use crate::update_list::{update_array, update_tables};
 use crate::write::{section, text, value};
+use list::{update_array, update_tables};
 
 impl Scene {
     /// The text of a scene file that a person wrote, changed only where it says something else than this

@@ -1,6 +1,6 @@
 //! The shadow map of a light, as a picture in shades of grey: near is light, far is dark, nothing is black.
 
-use antumbra::technique::map::{DepthMap, DepthScale};
+use antumbra::{DepthMap, DepthScale};
 use antumbra_host::HostError;
 use glow::HasContext;
 

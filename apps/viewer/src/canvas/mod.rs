@@ -8,8 +8,8 @@ mod program;
 
 use std::sync::Arc;
 
+use antumbra::Component;
 use antumbra::Stats;
-use antumbra::technique::composite::Component;
 use antumbra_host::{Buffers, ColorFormat, ContextInfo, FrameTimer, HostError, Setting, Stage};
 use antumbra_scene::Scene;
 use glow::HasContext;

@@ -1,7 +1,7 @@
 //! Lights that are drawn as a collection of components, which keys move one by one.
 
 use antumbra::glam::DVec3;
-use antumbra::technique::composite::{Component, components};
+use antumbra::{Component, components};
 use antumbra_scene::Light;
 
 use super::pick::Item;

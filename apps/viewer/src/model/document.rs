@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use antumbra::technique::composite::Component;
+use antumbra::Component;
 use antumbra_scene::{Camera, Scene, SceneError};
 
 /// How many steps can be undone.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use antumbra::{Soft, Technique};
+use antumbra::{OptionError, Soft, Technique};
 use serde::{Deserialize, Serialize};
 
 /// How a picture comes by its shadows. As text: a technique as on the command line, `raytraced` or `none`.
@@ -82,9 +82,9 @@ impl fmt::Display for Way {
 }
 
 impl FromStr for Way {
-    type Err = String;
+    type Err = OptionError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, OptionError> {
         match text {
             RAYTRACED => Ok(Self::Raytraced),
             NONE => Ok(Self::None),
@@ -103,9 +103,9 @@ impl From<Way> for String {
 }
 
 impl TryFrom<String> for Way {
-    type Error = String;
+    type Error = OptionError;
 
-    fn try_from(text: String) -> Result<Self, String> {
+    fn try_from(text: String) -> Result<Self, OptionError> {
         text.parse()
     }
 }

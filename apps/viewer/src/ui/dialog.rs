@@ -1,10 +1,6 @@
-//! Dialogs over everything else: which one, and what they have in common.
+//! What dialogs have in common.
 
 use egui::{Align, Color32, Context, Frame, Id, Layout, Margin, Modal, ModalResponse, RichText, Ui, vec2};
-
-use super::{Seen, files, help, unsaved};
-use crate::model::files::Purpose;
-use crate::model::{Dialog, Model};
 
 /// The colour of what went wrong.
 pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 110, 90);
@@ -12,20 +8,6 @@ pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 110, 90);
 const MARGIN: i8 = 16;
 /// Between a dialog and the window's edge, points.
 const DISTANCE: f32 = 8.0;
-
-/// Shows the dialog that is open, if there is one.
-pub(crate) fn show(context: &Context, model: &mut Model, seen: &mut Seen) {
-    if !matches!(model.dialog, Some(Dialog::Open | Dialog::SaveAs)) {
-        seen.files = None;
-    }
-    match model.dialog.clone() {
-        None => {}
-        Some(Dialog::Help) => help::show(context, model),
-        Some(Dialog::Open) => files::show(context, model, seen, Purpose::Open),
-        Some(Dialog::SaveAs) => files::show(context, model, seen, Purpose::Save),
-        Some(Dialog::Unsaved(then)) => unsaved::show(context, model, &then),
-    }
-}
 
 /// The most that a dialog can hold in this window: width and height in points.
 pub(crate) fn room(context: &Context) -> egui::Vec2 {

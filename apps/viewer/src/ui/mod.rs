@@ -1,6 +1,7 @@
 //! The interface: what is round the picture and over it, and what pointer and keys do.
 
 mod dialog;
+mod dialogs;
 mod fields;
 mod files;
 mod help;
@@ -24,11 +25,11 @@ use antumbra_scene::Motion;
 use egui::{CentralPanel, Frame, Panel, Rect, Ui};
 
 use crate::canvas::Side;
+use crate::controls::Control;
 use crate::model::files::Files;
 use crate::model::pick::{Grip, Item};
 use crate::model::settings::Layout;
 use crate::model::{Model, Parked};
-use crate::report::Control;
 
 /// What the interface knows besides the model: what was seen in the frames before, and what the pointer holds.
 pub(crate) struct Seen {
@@ -191,7 +192,7 @@ pub(crate) fn show(root: &mut Ui, model: &mut Model, seen: &mut Seen) -> Rect {
     }
     let picture =
         CentralPanel::default().frame(Frame::NONE).show(root, |ui| picture::show(ui, model, seen)).inner;
-    dialog::show(&context, model, seen);
+    dialogs::show(&context, model, seen);
     if asked && model.dialog.is_none() {
         // What had the keyboard is gone: keys are the program's again, at once.
         context.memory_mut(|memory| memory.focused().into_iter().for_each(|id| memory.surrender_focus(id)));

@@ -1,6 +1,6 @@
 //! The panel at the side.
 
-use antumbra::technique::Allowed;
+use antumbra::Allowed;
 use antumbra::{Pattern, Soft, Technique};
 use egui::{CollapsingHeader, ComboBox, DragValue, ScrollArea, Slider, Ui};
 
@@ -140,12 +140,12 @@ fn options(ui: &mut Ui, technique: &mut Technique) {
     for option in technique.options() {
         let mut set = |text: String| {
             // What the controls offer is what the option takes.
-            if let Err(error) = technique.set(&option.key, &text) {
+            if let Err(error) = technique.set(option.key, &text) {
                 log::error!("{error}");
             }
         };
         ui.horizontal(|ui| {
-            let label = ui.label(&option.key).on_hover_text(option.help);
+            let label = ui.label(option.key).on_hover_text(option.help);
             match option.allowed {
                 Allowed::Switch => {
                     let mut on = option.value == "on";
@@ -154,7 +154,7 @@ fn options(ui: &mut Ui, technique: &mut Technique) {
                     }
                 }
                 Allowed::Choice(choices) => {
-                    let id = ui.scope_id().with(&option.key);
+                    let id = ui.scope_id().with(option.key);
                     let combo = ComboBox::from_id_salt(id).selected_text(&option.value).show_ui(ui, |ui| {
                         for choice in choices {
                             let chosen = option.value == choice.name;

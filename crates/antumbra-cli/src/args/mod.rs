@@ -1,5 +1,6 @@
 //! The command line: what may be written, and what is said when something else was.
 
+mod figure;
 mod values;
 
 use std::ffi::OsString;
@@ -8,6 +9,7 @@ use std::path::PathBuf;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 
+pub(crate) use figure::FigureName;
 pub(crate) use values::{FPS, MAX_ANIMATION_FRAMES, MAX_SIDE, Size};
 use values::{
     parse_animation_frames, parse_duration, parse_fps, parse_frames, parse_msaa, parse_samples, parse_size,
@@ -16,7 +18,6 @@ use values::{
 
 use antumbra::Soft;
 
-use crate::commands::FigureName;
 use crate::error::CliError;
 use crate::technique::Technique;
 

@@ -12,8 +12,6 @@ mod trace;
 #[cfg(feature = "viewer")]
 mod view;
 
-pub(crate) use bench::FigureName;
-
 use antumbra_scene::Scene;
 
 use crate::args::{Cli, Command, DemoArgs, PictureArgs, Size};

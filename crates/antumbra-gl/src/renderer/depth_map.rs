@@ -1,10 +1,11 @@
 //! What a light sees, for programs that show it.
 
 use super::Renderer;
-use crate::Error;
-use crate::frame::Frame;
-use crate::state::StateGuard;
-use crate::technique::map::DepthMap;
+use super::drawing::Hands;
+use super::plan::{FramePlan, Purpose};
+use crate::gl::StateGuard;
+use crate::input::{Error, Frame, LightFault};
+use crate::masks::DepthMap;
 
 impl Renderer {
     /// Draws the shadow map of one of the frame's lights and says where it is: the very map that the light's shadows come
@@ -19,31 +20,29 @@ impl Renderer {
     /// # Errors
     /// [`Error::BadLight`] for a light that the frame does not have, and the errors of [`Self::masks`].
     pub fn depth_map(&mut self, frame: &Frame<'_>, light: usize) -> Result<Option<DepthMap>, Error> {
-        let view = self.check(frame)?;
+        let plan = FramePlan::new(frame, Purpose::Map, &self.manner, &mut self.centers)?;
         let Some(asked) = frame.lights.get(light) else {
-            return Err(Error::BadLight { index: light, reason: "the frame has no such light" });
+            return Err(Error::BadLight { index: light, fault: LightFault::Missing });
         };
-        if !self.technique.has_maps() {
+        if !self.manner.technique.has_maps() {
             return Ok(None);
         }
-        self.painting = false;
         let gl = self.gl.clone();
-        let _guard = StateGuard::new(&gl, self.caps);
+        let _guard = StateGuard::new(&gl, self.manner.caps);
         let stats = self.stats;
         // SAFETY: the guard is alive, and the frame was checked.
-        let drawn = unsafe {
-            self.prepare(frame, &view).and_then(|()| {
-                self.with_method(frame, &view, |method, pass, work| {
-                    let points = work.sampler.map(|_| work.points.of(light));
-                    match points {
-                        Some([first, ..]) => method.draw_map(pass, first),
-                        Some([]) => Ok(None),
-                        None => method.draw_map(pass, asked),
-                    }
-                })
-            })
-        };
+        let prepared = unsafe { self.prepare(&plan) };
         self.stats = stats;
-        drawn
+        prepared?;
+        let Hands { method, pass, points, .. } = self.hands(&plan);
+        let drawn = match plan.sampling {
+            None => asked,
+            Some(_) => match points.of(light) {
+                [first, ..] => first,
+                [] => return Ok(None),
+            },
+        };
+        // SAFETY: as above, and the frame was prepared.
+        unsafe { method.draw_map(&pass, drawn) }
     }
 }

@@ -1,7 +1,6 @@
 //! What blocks light, as triangles: for the techniques that cast from meshes.
 
-use super::Pass;
-use crate::scenery::Occluder;
+use crate::input::{Frame, Occluder};
 use antumbra_math::{MeshError, Plane, Shape, TriangleMesh};
 use glam::{DMat3, DMat4, DQuat, DVec3};
 use std::sync::LazyLock;
@@ -63,15 +62,15 @@ pub(crate) struct Caster<'a> {
 
 /// The frame's occluders and meshes as posed triangle meshes. Shapes without extent (a radius of zero, not finite)
 /// cast none and are left out, and so are infinite planes: see [`planes`].
-pub(crate) fn casters<'a>(pass: &Pass<'a>) -> impl Iterator<Item = Caster<'a>> + use<'a> {
-    let shapes = pass.frame.occluders.iter().filter_map(|o| -> Option<Caster<'a>> { caster_of(o) });
-    let meshes = pass.frame.meshes.iter().map(|m| Caster { mesh: &m.mesh, model: m.model, id: m.id });
+pub(crate) fn casters<'a>(frame: &Frame<'a>) -> impl Iterator<Item = Caster<'a>> + use<'a> {
+    let shapes = frame.occluders.iter().filter_map(|o| -> Option<Caster<'a>> { caster_of(o) });
+    let meshes = frame.meshes.iter().map(|m| Caster { mesh: &m.mesh, model: m.model, id: m.id });
     shapes.chain(meshes)
 }
 
 /// The infinite planes among the frame's occluders, which have no mesh, with their ids.
-pub(crate) fn planes<'a>(pass: &Pass<'a>) -> impl Iterator<Item = (Plane, u32)> + use<'a> {
-    pass.frame.occluders.iter().filter_map(|occluder| match occluder.shape {
+pub(crate) fn planes<'a>(frame: &Frame<'a>) -> impl Iterator<Item = (Plane, u32)> + use<'a> {
+    frame.occluders.iter().filter_map(|occluder| match occluder.shape {
         Shape::Plane(plane) => Some((plane, occluder.id)),
         _ => None,
     })

@@ -1,288 +1,184 @@
-//! Options of techniques: fields of a struct for programs, `key=value` for people.
+//! Options of techniques: a field of a struct for programs, a row of a table for people.
 
-use std::fmt::Display;
-use std::ops::RangeInclusive;
+use crate::input::{Allowed, Choice, OptionError, OptionInfo};
 
-/// An option of a technique, as a program shows it to people.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct OptionInfo {
-    /// Its name in [`crate::Technique::set`] and in the technique's text.
-    pub key: String,
-    /// What it does: plain sentences, on one line.
-    pub help: &'static str,
-    /// The value, as [`crate::Technique::set`] reads it. What a program has put into the field is here even if it is
-    /// not allowed.
-    pub value: String,
-    /// The value of a new technique.
-    pub default: String,
-    /// What it can be set to.
-    pub allowed: Allowed,
-}
+/// A technique's options: the rows of their table, in the order of the struct.
+pub(crate) trait Options: Copy + Default + PartialEq + 'static {
+    const FIELDS: &'static [Field<Self>];
 
-/// The values that an option takes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Allowed {
-    /// A number, the ends included.
-    Number {
-        /// The least.
-        low: f64,
-        /// The largest, finite.
-        high: f64,
-        /// Whether it has no fraction.
-        whole: bool,
-    },
-    /// `on` or `off`.
-    Switch,
-    /// One of these names.
-    Choice(&'static [Choice]),
-}
-
-/// A value that an option can be set to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Choice {
-    /// As [`crate::Technique::set`] reads it.
-    pub name: &'static str,
-    /// What it means: plain sentences, on one line.
-    pub help: &'static str,
-}
-
-impl Choice {
-    /// The value `name`, described by the lines of its documentation put together.
-    pub(crate) const fn new(name: &'static str, doc: &'static str) -> Self {
-        Self { name, help: doc.trim_ascii() }
-    }
-}
-
-/// A technique's options, by key.
-pub(crate) trait Options: Default {
     /// Sets one option from text.
-    ///
-    /// # Errors
-    /// What is wrong, and what to write instead.
-    fn set(&mut self, key: &str, text: &str) -> Result<(), String>;
+    fn set(&mut self, key: &str, text: &str) -> Result<(), OptionError> {
+        match Self::FIELDS.iter().find(|field| field.key == key) {
+            Some(field) => field.read(self, text),
+            None => Err(OptionError::NoOption {
+                key: key.to_owned(),
+                value: text.to_owned(),
+                keys: Self::FIELDS.iter().map(|field| field.key).collect(),
+            }),
+        }
+    }
 
     /// The options that differ from the defaults: key and value.
-    fn changed(&self) -> Vec<(String, String)>;
+    fn changed(&self) -> Vec<(&'static str, String)> {
+        let changed = self.list().into_iter().filter(|option| option.value != option.default);
+        changed.map(|option| (option.key, option.value)).collect()
+    }
 
-    /// All of them, in the order of the struct.
-    fn list(&self) -> Vec<OptionInfo>;
+    /// All of them.
+    fn list(&self) -> Vec<OptionInfo> {
+        let new = Self::default();
+        let info = |field: &Field<Self>| OptionInfo {
+            key: field.key,
+            help: field.help,
+            value: field.write(self),
+            default: field.write(&new),
+            allowed: field.allowed(),
+        };
+        Self::FIELDS.iter().map(info).collect()
+    }
 
     /// What is wrong with the values, for options that a program has set.
-    fn fault(&self) -> Option<String>;
+    fn fault(&self) -> Option<OptionError> {
+        Self::FIELDS.iter().find(|field| !field.is_allowed(self)).map(|field| field.error(field.write(self)))
+    }
 }
 
-/// A type of option.
-pub(crate) trait OptionValue: Copy + PartialEq {
-    /// What values are allowed.
-    type Allowed;
-
-    /// The value that `text` says, allowed or not.
-    fn read(text: &str) -> Option<Self>;
-
-    /// Text that reads as this value.
-    fn write(&self) -> String;
-
-    /// Whether it is one of the allowed values.
-    fn is_allowed(&self, allowed: &Self::Allowed) -> bool;
-
-    /// The allowed values, for people.
-    fn expected(allowed: &Self::Allowed) -> String;
-
-    /// The allowed values, for programs.
-    fn listed(allowed: &Self::Allowed) -> Allowed;
+/// One option: its name, what it does, and how it is read and written.
+pub(crate) struct Field<O> {
+    key: &'static str,
+    /// Plain sentences, on one line.
+    help: &'static str,
+    value: Value<O>,
 }
 
-macro_rules! number_option {
-    ($($type:ty, $whole:literal;)*) => {$(
-        impl OptionValue for $type {
-            type Allowed = RangeInclusive<$type>;
+/// A type of option, where it is in the struct, and what it may be.
+enum Value<O> {
+    Whole {
+        get: fn(&O) -> u32,
+        set: fn(&mut O, u32),
+        low: u32,
+        high: u32,
+    },
+    Number {
+        get: fn(&O) -> f32,
+        set: fn(&mut O, f32),
+        low: f32,
+        high: f32,
+    },
+    Switch {
+        get: fn(&O) -> bool,
+        set: fn(&mut O, bool),
+    },
+    /// By its place among the choices.
+    Choice {
+        get: fn(&O) -> usize,
+        set: fn(&mut O, usize),
+        choices: &'static [Choice],
+    },
+}
 
-            fn read(text: &str) -> Option<Self> {
-                text.parse().ok()
+impl<O> Field<O> {
+    /// A whole number, the ends included.
+    pub(crate) const fn whole(
+        key: &'static str,
+        help: &'static str,
+        (low, high): (u32, u32),
+        get: fn(&O) -> u32,
+        set: fn(&mut O, u32),
+    ) -> Self {
+        Self { key, help, value: Value::Whole { get, set, low, high } }
+    }
+
+    /// A number, the ends included.
+    pub(crate) const fn number(
+        key: &'static str,
+        help: &'static str,
+        (low, high): (f32, f32),
+        get: fn(&O) -> f32,
+        set: fn(&mut O, f32),
+    ) -> Self {
+        Self { key, help, value: Value::Number { get, set, low, high } }
+    }
+
+    /// On or off.
+    pub(crate) const fn switch(
+        key: &'static str,
+        help: &'static str,
+        get: fn(&O) -> bool,
+        set: fn(&mut O, bool),
+    ) -> Self {
+        Self { key, help, value: Value::Switch { get, set } }
+    }
+
+    /// One of several, by its place among the `choices`.
+    pub(crate) const fn choice(
+        key: &'static str,
+        help: &'static str,
+        choices: &'static [Choice],
+        get: fn(&O) -> usize,
+        set: fn(&mut O, usize),
+    ) -> Self {
+        Self { key, help, value: Value::Choice { get, set, choices } }
+    }
+
+    /// Text that reads as the value.
+    fn write(&self, options: &O) -> String {
+        match self.value {
+            Value::Whole { get, .. } => get(options).to_string(),
+            Value::Number { get, .. } => get(options).to_string(),
+            Value::Switch { get, .. } => if get(options) { "on" } else { "off" }.to_owned(),
+            Value::Choice { get, choices, .. } => choices[get(options)].name.to_owned(),
+        }
+    }
+
+    /// Sets the value that `text` says.
+    fn read(&self, options: &mut O, text: &str) -> Result<(), OptionError> {
+        let wrong = || self.error(text.to_owned());
+        match self.value {
+            Value::Whole { set, low, high, .. } => {
+                let number = text.parse().ok().filter(|number| (low..=high).contains(number));
+                set(options, number.ok_or_else(wrong)?);
             }
-
-            fn write(&self) -> String {
-                self.to_string()
+            Value::Number { set, low, high, .. } => {
+                // Never of a float that is not a number.
+                let number = text.parse().ok().filter(|number| (low..=high).contains(number));
+                set(options, number.ok_or_else(wrong)?);
             }
-
-            fn is_allowed(&self, allowed: &Self::Allowed) -> bool {
-                allowed.contains(self) // false for a float that is not a number
+            Value::Switch { set, .. } => {
+                let on = ["off", "on"].iter().position(|name| *name == text).ok_or_else(wrong)?;
+                set(options, on == 1);
             }
-
-            fn expected(allowed: &Self::Allowed) -> String {
-                format!("a number from {} to {}", allowed.start(), allowed.end())
-            }
-
-            fn listed(allowed: &Self::Allowed) -> Allowed {
-                let (low, high) = (f64::from(*allowed.start()), f64::from(*allowed.end()));
-                Allowed::Number { low, high, whole: $whole }
+            Value::Choice { set, choices, .. } => {
+                let place = choices.iter().position(|choice| choice.name == text);
+                set(options, place.ok_or_else(wrong)?);
             }
         }
-    )*};
-}
-number_option! {
-    u32, true;
-    f32, false;
-}
+        Ok(())
+    }
 
-impl OptionValue for bool {
-    type Allowed = ();
-
-    fn read(text: &str) -> Option<Self> {
-        match text {
-            "on" => Some(true),
-            "off" => Some(false),
-            _ => None,
+    /// Whether the value is one that it may have.
+    fn is_allowed(&self, options: &O) -> bool {
+        match self.value {
+            Value::Whole { get, low, high, .. } => (low..=high).contains(&get(options)),
+            Value::Number { get, low, high, .. } => (low..=high).contains(&get(options)),
+            Value::Switch { .. } | Value::Choice { .. } => true,
         }
     }
 
-    fn write(&self) -> String {
-        if *self { "on".into() } else { "off".into() }
-    }
-
-    fn is_allowed(&self, (): &()) -> bool {
-        true
-    }
-
-    fn expected((): &()) -> String {
-        "on or off".into()
-    }
-
-    fn listed((): &()) -> Allowed {
-        Allowed::Switch
-    }
-}
-
-/// The message for a value that is not allowed.
-pub(crate) fn not_allowed<T: OptionValue>(key: &str, text: impl Display, allowed: &T::Allowed) -> String {
-    format!("option `{key}` cannot be `{text}`; write {}", T::expected(allowed))
-}
-
-/// Declares an enum whose values have names on the command line, or gives names to the values of one that exists. The
-/// values' documentation is what people are shown.
-macro_rules! choices {
-    ($(#[$meta:meta])* pub enum $name:ident { $($(#[doc = $doc:literal])* $value:ident = $text:literal,)* }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum $name { $($(#[doc = $doc])* $value,)* }
-
-        choices! { impl $name { $($(#[doc = $doc])* $value = $text,)* } }
-    };
-    (impl $name:ident { $($(#[doc = $doc:literal])* $value:ident = $text:literal,)* }) => {
-        impl $crate::technique::options::OptionValue for $name {
-            type Allowed = ();
-
-            fn read(text: &str) -> Option<Self> {
-                match text {
-                    $($text => Some(Self::$value),)*
-                    _ => None,
-                }
+    fn allowed(&self) -> Allowed {
+        match self.value {
+            Value::Whole { low, high, .. } => {
+                Allowed::Number { low: low.into(), high: high.into(), whole: true }
             }
-
-            fn write(&self) -> String {
-                match self {
-                    $(Self::$value => $text.into(),)*
-                }
+            Value::Number { low, high, .. } => {
+                Allowed::Number { low: low.into(), high: high.into(), whole: false }
             }
-
-            fn is_allowed(&self, (): &()) -> bool {
-                true
-            }
-
-            fn expected((): &()) -> String {
-                [$($text),*].join(" or ")
-            }
-
-            fn listed((): &()) -> $crate::technique::options::Allowed {
-                use $crate::technique::options::{Allowed, Choice};
-                const CHOICES: &[Choice] = &[$(Choice::new($text, concat!($($doc),*))),*];
-                Allowed::Choice(CHOICES)
-            }
+            Value::Switch { .. } => Allowed::Switch,
+            Value::Choice { choices, .. } => Allowed::Choice(choices),
         }
-    };
-}
-
-/// Declares the struct `Options` of a technique: each field with its default and what is allowed, a range for
-/// numbers and `()` for the rest. The key of `field_name` is `field-name`, and its documentation is what people are
-/// shown: plain sentences without links.
-macro_rules! options {
-    ($(#[$meta:meta])* pub struct Options {
-        $($(#[doc = $doc:literal])* pub $field:ident: $type:ty = $default:expr, $allowed:expr;)*
-    }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        #[non_exhaustive]
-        pub struct Options { $($(#[doc = $doc])* pub $field: $type,)* }
-
-        impl Default for Options {
-            fn default() -> Self {
-                Self { $($field: $default,)* }
-            }
-        }
-
-        impl $crate::technique::options::Options for Options {
-            fn set(&mut self, key: &str, text: &str) -> Result<(), String> {
-                $(
-                    if key == stringify!($field).replace('_', "-") {
-                        use $crate::technique::options::{OptionValue, not_allowed};
-                        let value = <$type as OptionValue>::read(text).filter(|v| v.is_allowed(&$allowed));
-                        self.$field = value.ok_or_else(|| not_allowed::<$type>(key, text, &$allowed))?;
-                        return Ok(());
-                    }
-                )*
-                let keys: &[&str] = &[$(stringify!($field)),*];
-                Err($crate::technique::options::unknown(key, text, keys))
-            }
-
-            fn changed(&self) -> Vec<(String, String)> {
-                #[allow(unused_mut, reason = "a technique may have no options")]
-                let mut changed = Vec::new();
-                $(
-                    if self.$field != $default {
-                        let key = stringify!($field).replace('_', "-");
-                        changed.push((key, $crate::technique::options::OptionValue::write(&self.$field)));
-                    }
-                )*
-                changed
-            }
-
-            fn list(&self) -> Vec<$crate::technique::options::OptionInfo> {
-                use $crate::technique::options::{OptionInfo, OptionValue};
-                vec![$(OptionInfo {
-                    key: stringify!($field).replace('_', "-"),
-                    help: concat!($($doc),*).trim_ascii(),
-                    value: self.$field.write(),
-                    default: <$type as OptionValue>::write(&$default),
-                    allowed: <$type as OptionValue>::listed(&$allowed),
-                }),*]
-            }
-
-            fn fault(&self) -> Option<String> {
-                $({
-                    use $crate::technique::options::{OptionValue, not_allowed};
-                    if !self.$field.is_allowed(&$allowed) {
-                        let key = stringify!($field).replace('_', "-");
-                        return Some(not_allowed::<$type>(&key, self.$field.write(), &$allowed));
-                    }
-                })*
-                None
-            }
-        }
-    };
-}
-
-pub(crate) use choices;
-pub(crate) use options;
-
-/// The message for a key that a technique does not have.
-pub(crate) fn unknown(key: &str, text: &str, fields: &[&str]) -> String {
-    let written = if text.is_empty() { key.to_owned() } else { format!("{key}={text}") };
-    if fields.is_empty() {
-        return format!("there is no option `{written}`; this technique has none");
     }
-    let keys: Vec<String> = fields.iter().map(|field| field.replace('_', "-")).collect();
-    format!("there is no option `{written}`; the options are {}", keys.join(", "))
+
+    fn error(&self, value: String) -> OptionError {
+        OptionError::NotAllowed { key: self.key, value, allowed: self.allowed() }
+    }
 }

@@ -1,12 +1,13 @@
 //! The list of techniques, and their names and options as text.
 
 use super::*;
+use crate::input::Allowed;
 
 #[test]
 fn every_technique_reads_what_it_writes() {
     assert_eq!(Technique::all().count(), Technique::NAMES.len(), "one a name");
-    for (i, technique) in Technique::all().enumerate() {
-        assert_eq!(technique.index(), i, "{technique} is where its name is");
+    for (technique, name) in Technique::all().zip(Technique::NAMES) {
+        assert_eq!(technique.name(), *name, "in the order of their names");
         assert_eq!(technique.to_string(), technique.name(), "defaults are not written");
         assert_eq!(Technique::parse(technique.name()), Ok(technique), "the name alone");
         let about = technique.about();
@@ -25,7 +26,7 @@ fn every_technique_has_a_theory_page() {
 
 #[test]
 fn mistakes_say_what_to_write() {
-    let of = |text: &str| Technique::parse(text).expect_err(text);
+    let of = |text: &str| Technique::parse(text).expect_err(text).to_string();
     assert_eq!(
         of("analitic"),
         format!("there is no technique `analitic`; the techniques are {}", Technique::NAMES.join(", ")),
@@ -74,8 +75,8 @@ fn right_and_wrong(allowed: Allowed) -> (Vec<String>, Vec<String>) {
 fn every_option_can_be_shown_and_set() {
     for technique in Technique::all() {
         let options = technique.options();
-        let mistake = { technique }.set("no-such", "1").expect_err("no such option");
-        let keys: Vec<&str> = options.iter().map(|option| option.key.as_str()).collect();
+        let mistake = { technique }.set("no-such", "1").expect_err("no such option").to_string();
+        let keys: Vec<&str> = options.iter().map(|option| option.key).collect();
         assert!(mistake.ends_with(&keys.join(", ")), "{technique} lists {keys:?}: {mistake}");
         for (i, option) in options.iter().enumerate() {
             let what = format!("option {} of {technique}", option.key);
@@ -84,7 +85,7 @@ fn every_option_can_be_shown_and_set() {
             let (right, wrong) = right_and_wrong(option.allowed);
             for text in right.iter().chain([&option.default]) {
                 let mut changed = technique;
-                changed.set(&option.key, text).unwrap_or_else(|error| panic!("{what}: {error}"));
+                changed.set(option.key, text).unwrap_or_else(|error| panic!("{what}: {error}"));
                 let shown = changed.options();
                 assert_eq!(&shown[i].value, text, "{what}: set and shown");
                 assert_eq!(shown[i].default, option.default, "{what}: the default stays");
@@ -96,7 +97,7 @@ fn every_option_can_be_shown_and_set() {
             }
             for text in wrong.iter().chain([&String::new()]) {
                 let mut changed = technique;
-                assert!(changed.set(&option.key, text).is_err(), "{what} is not {text:?}");
+                assert!(changed.set(option.key, text).is_err(), "{what} is not {text:?}");
                 assert_eq!(changed, technique, "{what}: mistakes set nothing");
             }
             if let Allowed::Choice(choices) = option.allowed {
@@ -113,49 +114,57 @@ fn is_plain(help: &str) -> bool {
         && !["[", "  ", "\n", "::"].iter().any(|odd| help.contains(odd))
 }
 
-#[expect(unreachable_pub, reason = "the macros declare what a crate makes public")]
 mod own {
-    use crate::technique::options::{Allowed, Choice, Options as _, choices, options};
+    use crate::input::{Allowed, Choice};
+    use crate::technique::options::{Field, Options as _};
 
-    choices! {
-        /// A choice.
-        pub enum Kind {
-            /// One.
-            Soft = "soft",
-            /// The other.
-            Hard = "hard",
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    enum Kind {
+        Soft,
+        Hard,
+    }
+
+    const KINDS: &[Choice] = &[Choice::new("soft", "One."), Choice::new("hard", "The other.")];
+
+    /// One option of each type.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Options {
+        map_size: u32,
+        bias: f32,
+        stencil: bool,
+        kind: Kind,
+    }
+
+    impl Default for Options {
+        fn default() -> Self {
+            Self { map_size: 64, bias: 0.5, stencil: true, kind: Kind::Soft }
         }
     }
 
-    options! {
-        /// One option of each type.
-        pub struct Options {
-            /// A number.
-            pub map_size: u32 = 64, 16..=128;
-            /// Another,
-            /// of two lines.
-            pub bias: f32 = 0.5, 0.0..=2.0;
-            /// A switch.
-            pub stencil: bool = true, ();
-            /// A choice.
-            pub kind: Kind = Kind::Soft, ();
-        }
+    impl super::options::Options for Options {
+        const FIELDS: &'static [Field<Self>] = &[
+            Field::whole("map-size", "A number.", (16, 128), |o| o.map_size, |o, size| o.map_size = size),
+            Field::number("bias", "Another, of two lines.", (0.0, 2.0), |o| o.bias, |o, bias| o.bias = bias),
+            Field::switch("stencil", "A switch.", |o| o.stencil, |o, on| o.stencil = on),
+            Field::choice(
+                "kind",
+                "A choice.",
+                KINDS,
+                |o| o.kind as usize,
+                |o, place| o.kind = [Kind::Soft, Kind::Hard][place],
+            ),
+        ];
     }
 
     #[test]
     fn options_say_what_they_are() {
         let list = Options { bias: f32::NAN, ..Options::default() }.list();
-        let said: Vec<_> =
-            list.iter().map(|o| (o.key.as_str(), o.help, o.value.as_str(), o.allowed)).collect();
-        let kinds = Allowed::Choice(&[
-            Choice { name: "soft", help: "One." },
-            Choice { name: "hard", help: "The other." },
-        ]);
+        let said: Vec<_> = list.iter().map(|o| (o.key, o.help, o.value.as_str(), o.allowed)).collect();
         let expected = [
             ("map-size", "A number.", "64", Allowed::Number { low: 16.0, high: 128.0, whole: true }),
             ("bias", "Another, of two lines.", "NaN", Allowed::Number { low: 0.0, high: 2.0, whole: false }),
             ("stencil", "A switch.", "on", Allowed::Switch),
-            ("kind", "A choice.", "soft", kinds),
+            ("kind", "A choice.", "soft", Allowed::Choice(KINDS)),
         ];
         assert_eq!(said, expected);
         assert_eq!(list[1].default, "0.5");
@@ -168,11 +177,8 @@ mod own {
         for (key, value) in [("map-size", "128"), ("bias", "0.25"), ("stencil", "off"), ("kind", "hard")] {
             options.set(key, value).expect("right");
         }
-        assert_eq!(
-            options,
-            Options { map_size: 128, bias: 0.25, stencil: false, kind: Kind::Hard },
-            "as said"
-        );
+        let expected = Options { map_size: 128, bias: 0.25, stencil: false, kind: Kind::Hard };
+        assert_eq!(options, expected, "as said");
         let mut again = Options::default();
         options.changed().iter().for_each(|(key, value)| again.set(key, value).expect("it wrote it"));
         assert_eq!(again, options, "written and read");
@@ -184,7 +190,7 @@ mod own {
             ("kind", "both", "option `kind` cannot be `both`; write soft or hard"),
             ("size", "8", "there is no option `size=8`; the options are map-size, bias, stencil, kind"),
         ] {
-            assert_eq!(again.set(key, value), Err(says.to_owned()), "{key}={value}");
+            assert_eq!(again.set(key, value).expect_err(value).to_string(), says, "{key}={value}");
         }
         assert_eq!(again, options, "mistakes set nothing");
         assert!(Options { bias: f32::NAN, ..options }.fault().is_some(), "set by a program");

@@ -9,8 +9,9 @@ use crate::odd_host::OddHost;
 use crate::shot::{Canvas, Shot, VIEWPORT, read_texture};
 use crate::snapshot::{assert_same, snapshot};
 use crate::world::World;
-use antumbra_gl::technique::composite::{Component, Shade, SphereForm, components};
+use antumbra_gl::technique::composite::{Shade, SphereForm};
 use antumbra_gl::{Area, Encoding, Error, Frame, Light, Renderer, Technique, Tier, sample_weight};
+use antumbra_gl::{Component, components};
 use antumbra_math::Light as Place;
 use glam::{DVec3, Vec3, Vec4};
 

@@ -7,8 +7,8 @@ use crate::odd_host::OddHost;
 use crate::shot::{Shot, VIEWPORT, read_texture, texture};
 use crate::snapshot::{assert_same, snapshot};
 use crate::world::World;
-use antumbra_gl::technique::map::{DepthMap, DepthScale, MapFace};
 use antumbra_gl::{Area, Error, Frame, Light, Pattern, Renderer, Soft, Tier, light_points};
+use antumbra_gl::{DepthMap, DepthScale, MapFace};
 use glam::{DVec3, DVec4, Vec3, Vec4Swizzles};
 use glow::HasContext;
 

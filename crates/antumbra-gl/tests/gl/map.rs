@@ -3,7 +3,7 @@
 use crate::context::{Gl, in_each_api};
 use crate::shot::{Shot, read_texture};
 use crate::world::{ONE_OF_EACH, Truth, World};
-use antumbra_gl::technique::Part;
+use antumbra_gl::Part;
 use antumbra_gl::technique::map::{Filter, Options};
 use antumbra_gl::{Area, Error, Frame, Light, Occluder, Renderer, Surface, Technique, Tier};
 use antumbra_math::Light as Place;
@@ -285,7 +285,7 @@ fn options_are_read_and_refused() {
         ("map:constant-bias=NaN", "a number from 0 to 1000"),
         ("map:bias=1", "the options are size, filter, radius"),
     ] {
-        let error = Technique::parse(text).expect_err(text);
+        let error = Technique::parse(text).expect_err(text).to_string();
         assert!(error.contains(says), "{text}: {error}");
     }
     let mut options = Options::default();

@@ -68,7 +68,7 @@ fn renderers(gl: &std::sync::Arc<glow::Context>, frame: &Frame<'_>, soft: Soft) 
         }
         technique
     });
-    let able = physical.filter(|technique| soft.refusal(technique, &frame.scenery()).is_none());
+    let able = physical.filter(|technique| technique.refusal_with(soft, &frame.scenery()).is_none());
     able.map(|technique| {
         let mut renderer = Renderer::new(gl.clone()).expect("a renderer");
         renderer.set_technique(technique).expect("the technique");

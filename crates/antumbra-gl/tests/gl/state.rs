@@ -5,7 +5,7 @@ use crate::lights::many_lights;
 use crate::odd_host::OddHost;
 use crate::shot::{Canvas, Shot, VIEWPORT};
 use crate::snapshot::{assert_same, has_indexed_switches, snapshot};
-use antumbra_gl::{DepthFormat, Encoding, Error, Frame, Renderer, Surface, Technique, Tier};
+use antumbra_gl::{DepthFormat, Encoding, Error, Frame, Image, Renderer, Surface, Technique, Tier};
 use glam::DMat4;
 use glow::HasContext;
 
@@ -224,7 +224,7 @@ fn a_surface_that_is_drawn_to_is_refused() {
             );
         }
         let refused = renderer.overlay(&frame, Encoding::Linear);
-        assert_eq!(refused, Err(Error::SurfaceAttached { image: "depth" }), "depth is attached");
+        assert_eq!(refused, Err(Error::SurfaceAttached { image: Image::Depth }), "depth is attached");
         // SAFETY: as above.
         unsafe {
             gl.gl.framebuffer_texture_2d(
@@ -243,7 +243,7 @@ fn a_surface_that_is_drawn_to_is_refused() {
             );
         }
         let refused = renderer.overlay(&frame, Encoding::Linear);
-        assert_eq!(refused, Err(Error::SurfaceAttached { image: "normals" }), "normals are attached");
+        assert_eq!(refused, Err(Error::SurfaceAttached { image: Image::Normals }), "normals are attached");
         // SAFETY: as above.
         unsafe {
             gl.gl.framebuffer_texture_2d(
@@ -255,7 +255,7 @@ fn a_surface_that_is_drawn_to_is_refused() {
             );
         }
         let refused = renderer.overlay(&frame, Encoding::Linear);
-        assert_eq!(refused, Err(Error::SurfaceAttached { image: "ids" }), "ids are attached");
+        assert_eq!(refused, Err(Error::SurfaceAttached { image: Image::Ids }), "ids are attached");
         assert!(canvas.read(0).iter().all(|texel| *texel == [255; 4]), "nothing is drawn");
         // Masks have targets of their own: any framebuffer may be bound.
         renderer.masks(&frame, |_| {}).expect("masks do not draw to the host's framebuffer");

@@ -338,8 +338,8 @@ fn shortened(text: &str, most: usize) -> String {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::super::figures::FigureName;
     use super::*;
+    use crate::args::FigureName;
     use crate::args::Size;
 
     pub(super) fn report(

@@ -12,7 +12,7 @@ use antumbra_host::Stage;
 use antumbra_scene::Scene;
 use clap::ValueEnum;
 
-use crate::args::BenchArgs;
+use crate::args::{BenchArgs, FigureName};
 use crate::draw::{Driver, open_context};
 use crate::error::CliError;
 use crate::output::plan::{check_directory, check_file};
@@ -21,7 +21,6 @@ use crate::progress::Progress;
 use crate::report::texts;
 use crate::technique::Technique;
 use crate::timing::Contest;
-pub(crate) use figures::FigureName;
 use figures::{Figure, Place};
 use report::{Refusal, Report, Row};
 

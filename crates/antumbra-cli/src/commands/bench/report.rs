@@ -5,7 +5,8 @@ use std::fmt;
 use antumbra_scene::{LightKind, Scene};
 use serde::Serialize;
 
-use super::figures::{FigureName, Place};
+use super::figures::Place;
+use crate::args::FigureName;
 use crate::console;
 use crate::draw::Driver;
 use crate::error::{CliError, OneLine};

@@ -1,18 +1,14 @@
 //! The parts of a batch's shadows on the receiver, packed for upload.
 
 use super::{Options, receiver_frame};
-use crate::frame::Frame;
-use crate::overlay::Encoding;
-use crate::pairs::{BATCH_LIGHTS, GROUP_LIGHTS, Vertex, clip_position};
-use crate::proxy::ProxyBuilder;
-use crate::results::Counts;
-use crate::scenery::Light;
-use crate::tiles::TileGrid;
-use crate::view::View;
+use crate::input::{Encoding, Frame, Light};
+use crate::masks::{BATCH_LIGHTS, Counts, GROUP_LIGHTS};
+use crate::screen::{ProxyBuilder, TileGrid, View};
+use crate::technique::polygons::{Vertex, push_polygon};
 use antumbra_math::composite::{self, Part, PartShape, PlacedPart, SphereForm};
 use antumbra_math::plane_shadow::{Bounds, PlaneFrame};
 use antumbra_math::{Plane, Shape};
-use glam::{DVec2, DVec3, DVec4, Vec3, Vec4};
+use glam::{DVec2, DVec3, Vec3, Vec4};
 
 /// Corners of the polygon drawn round a disc, which is then 5 % larger.
 const SIDES: usize = 8;
@@ -80,8 +76,7 @@ impl PartBuilder {
         let PlaneFrame { origin, u, v, normal } = plane_frame;
         let frame_vs =
             PlaneFrame { origin: point(origin), u: vector(u), v: vector(v), normal: vector(normal) };
-        let perspective = view.projection.row(3) != DVec4::W;
-        let eye = if perspective { frame_vs.height(DVec3::ZERO) } else { frame_vs.normal.z };
+        let eye = if view.is_perspective() { frame_vs.height(DVec3::ZERO) } else { frame_vs.normal.z };
         self.receiver = planes(&frame_vs, &bounds);
         self.ground = Some(Ground { frame: plane_frame, frame_vs, eye });
     }
@@ -94,20 +89,19 @@ impl PartBuilder {
         for (group, lights) in lights.chunks(GROUP_LIGHTS).take(self.groups.len()).enumerate() {
             let first = self.vertices.len();
             for (channel, light) in lights.iter().enumerate().filter(|(_, l)| l.intensity != Vec3::ZERO) {
-                self.pack_light(channel as u32, light, view, &mut drawn);
+                self.pack_light(channel, light, view, &mut drawn);
             }
             self.groups[group] = (first as i32, (self.vertices.len() - first) as i32);
         }
     }
 
-    fn pack_light(&mut self, channel: u32, light: &Light, view: &View, drawn: &mut Drawn<'_>) {
+    fn pack_light(&mut self, channel: usize, light: &Light, view: &View, drawn: &mut Drawn<'_>) {
         let Some(ground) = &self.ground else { return };
         self.counts.pairs += self.casters.len();
         // What faces away from the light has no shadow to show.
         let l = light.place.homogeneous();
         let plane = Plane::through(ground.frame.origin, ground.frame.normal);
-        let height = plane.normal.dot(l.truncate()) - plane.offset * l.w;
-        if !(height * ground.eye > 0.0) {
+        if !(plane.height_of(l) * ground.eye > 0.0) {
             return;
         }
         self.of_light.clear();
@@ -141,16 +135,9 @@ impl PartBuilder {
                 Drawn::Components(tiles) => (part.shade as f32, tiles),
             };
             tiles.touch(polygon);
-            let first = self.texels.len() as u32;
+            let first = self.texels.len();
             self.texels.extend(texels(&placed, grey));
-            let vertex = |p: DVec2| Vertex {
-                position: clip_position(p, view.size()),
-                blocker: first * 4 + channel,
-                id: 0,
-            };
-            for pair in polygon[1..].windows(2) {
-                self.vertices.extend([polygon[0], pair[0], pair[1]].map(vertex));
-            }
+            push_polygon(&mut self.vertices, polygon, view, (channel, first), 0);
         }
     }
 }

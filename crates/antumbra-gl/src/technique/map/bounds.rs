@@ -1,10 +1,9 @@
 //! Where the casters are and what can be seen: what maps are fitted to.
 
-use super::face::{Eye, Window};
-use crate::pairs::seen_half_spaces;
+use super::window::{Eye, Window};
+use crate::screen::{View, seen_half_spaces};
 use crate::technique::Pass;
-use crate::technique::casters::Caster;
-use crate::view::View;
+use crate::technique::casters::{Caster, casters, planes};
 use antumbra_math::{Plane, TriangleMesh};
 use glam::{DMat4, DVec3, DVec4, Vec4Swizzles};
 use std::collections::HashMap;
@@ -113,15 +112,14 @@ pub(super) struct Surroundings {
 
 impl Surroundings {
     pub(super) fn begin(&mut self, pass: &Pass<'_>) {
-        use crate::technique::casters::{casters, planes};
         self.boxes.begin_frame();
         self.casters.clear();
-        for caster in casters(pass) {
+        for caster in casters(&pass.frame) {
             let sides = self.boxes.of(caster.mesh);
             self.casters.push(Bounds::new(&caster, sides));
         }
         self.planes.clear();
-        self.planes.extend(planes(pass).filter(|(p, _)| p.normal.is_finite() && p.offset.is_finite()));
+        self.planes.extend(planes(&pass.frame).filter(|(p, _)| p.normal.is_finite() && p.offset.is_finite()));
         self.half_spaces.clear();
         seen_half_spaces(pass.frame.occluders, pass.frame.bounds, pass.view, &mut self.half_spaces);
         self.seen.clear();
@@ -135,7 +133,7 @@ impl Surroundings {
 
 /// The directions through the corners of the picture, view space; `None` for a parallel camera.
 fn corner_rays(view: &View) -> Option<[DVec3; 4]> {
-    if view.pixel_step[2] == 0.0 {
+    if !view.is_perspective() {
         return None;
     }
     let back: DMat4 = view.projection.inverse();

@@ -2,8 +2,9 @@
 
 use super::Options;
 use super::bounds::{Bounds, Surroundings};
-use super::depth_map::DepthScale;
-use super::face::{Eye, Face, Window};
+use super::face::Face;
+use super::window::{Eye, Window};
+use crate::masks::DepthScale;
 use antumbra_math::{Light, Plane};
 use glam::{DVec2, DVec3};
 

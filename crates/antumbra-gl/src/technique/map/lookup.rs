@@ -3,11 +3,10 @@
 use super::Options;
 use super::fit::{self, Fit};
 use super::target::MapTarget;
-use crate::lights::ShaderLight;
-use crate::pairs::GROUP_LIGHTS;
-use crate::scenery::{Area, Light};
-use crate::shader::Program;
-use crate::view::View;
+use crate::gl::Program;
+use crate::input::{Area, Light};
+use crate::masks::{GROUP_LIGHTS, ShaderLight};
+use crate::screen::View;
 use antumbra_math::{Light as Place, Plane};
 use glam::{DMat4, Mat4, Vec3, Vec4};
 use glow::HasContext;

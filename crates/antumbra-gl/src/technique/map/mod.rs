@@ -13,23 +13,20 @@ mod reach;
 pub mod receiver;
 pub mod soft;
 mod target;
+mod window;
 
-use super::options::{choices, options};
-use super::{About, Batch, Behavior, Method, Part, Pass, Refusal, Technique};
-use crate::mesh_buffers::MeshCache;
-use crate::pairs::{GROUP_LIGHTS, hides_its_own_shadow};
-use crate::proxy::ProxyBuilder;
-use crate::resources::UploadRing;
-use crate::results::Counts;
-use crate::scenery::{Area, Light, Scenery};
-use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
-use crate::state::{Blend, RasterGuard};
-use crate::technique::casters::{casters, with_sides};
-use crate::tiles::TileGrid;
-use crate::{Caps, Error};
+use super::casters::{casters, with_sides};
+use super::method::{Behavior, Make};
+use super::options::Field;
+use super::{About, Method, Pass};
+use crate::gl::{
+    Blend, COVERAGE, Caps, MeshCache, ProgramSource, RasterGuard, SURFACE, Stage, TileMesh, When,
+};
+use crate::input::{Area, Choice, Error, Light, Part, Reason, Refusal, Resource, Scenery};
+use crate::masks::{Batch, Counts, DepthMap, GROUP_LIGHTS};
+use crate::screen::{ProxyBuilder, TileGrid, hides_its_own_shadow};
 use antumbra_math::Plane;
 use bounds::Surroundings;
-pub use depth_map::{DepthMap, DepthScale, MapFace};
 use face::Face;
 use fit::Fit;
 use glam::DVec2;
@@ -43,39 +40,150 @@ pub(super) const ABOUT: About = About {
     falls_on: "anything",
 };
 
-choices! {
-    /// How a map is looked up.
-    pub enum Filter {
-        /// The nearest texel: in or out, with stairs.
-        None = "none",
-        /// Percentage-closer filtering: the mean of the answers of a square of texels.
-        Pcf = "pcf",
-        /// Percentage-closer soft shadows: the same, as wide as the penumbra of the light's area is estimated to be.
-        /// Lights without an area are filtered as with `pcf`.
-        Pcss = "pcss",
+/// How a map is looked up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Filter {
+    /// The nearest texel: in or out, with stairs.
+    None,
+    /// Percentage-closer filtering: the mean of the answers of a square of texels.
+    #[default]
+    Pcf,
+    /// Percentage-closer soft shadows: the same, as wide as the penumbra of the light's area is estimated to be.
+    /// Lights without an area are filtered as with `pcf`.
+    Pcss,
+}
+
+impl Filter {
+    const ALL: [Self; 3] = [Self::None, Self::Pcf, Self::Pcss];
+    /// In the same order.
+    const CHOICES: &[Choice] = &[
+        Choice::new("none", "The nearest texel: in or out, with stairs."),
+        Choice::new("pcf", "Percentage-closer filtering: the mean of the answers of a square of texels."),
+        Choice::new(
+            "pcss",
+            "Percentage-closer soft shadows: the same, as wide as the penumbra of the light's area is estimated to be. \
+             Lights without an area are filtered as with `pcf`.",
+        ),
+    ];
+}
+
+/// Options of the technique `map`. Lengths are in texels, so that they shrink as the map grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// Texels of a side of a map; of each of the faces in use for a point light. Four bytes each. 16 to 8192.
+    pub size: u32,
+    /// How the map is looked up.
+    pub filter: Filter,
+    /// Half the side of the square of texels that `pcf` takes the mean of; an eighth of the map at most. 0.5 to 8.
+    /// Larger: smoother edges, less detail. 0.5 is a bilinear filter, 1.5 the usual 3 by 3 of those.
+    pub radius: f32,
+    /// How much nearer to the light a point is taken to be. 0 to 1000. Larger: less acne on curved receivers, and a gap
+    /// between an object and its shadow.
+    pub constant_bias: f32,
+    /// The share of the receiver's slope, from its normal, that the comparison follows from texel to texel:
+    /// 1 its own plane, 0 a plane that faces the light. Less: acne where light grazes.
+    pub slope_bias: f32,
+    /// How far a point is moved off its surface, less the more it faces the light. 0 to 1000. Larger: less acne where
+    /// normals do not tell the slope, and shadows move.
+    pub normal_offset: f32,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            size: 2048,
+            filter: Filter::Pcf,
+            radius: 1.5,
+            constant_bias: 0.1,
+            slope_bias: 1.0,
+            normal_offset: 0.25,
+        }
     }
 }
 
-options! {
-    /// Options of the technique `map`. Lengths are in texels, so that they shrink as the map grows.
-    pub struct Options {
-        /// Texels of a side of a map; of each of the faces in use for a point light. Four bytes each.
-        pub size: u32 = 2048, 16..=8192;
-        /// How the map is looked up.
-        pub filter: Filter = Filter::Pcf, ();
-        /// Half the side of the square of texels that `pcf` takes the mean of; an eighth of the map at most.
-        /// Larger: smoother edges, less detail. 0.5 is a bilinear filter, 1.5 the usual 3 by 3 of those.
-        pub radius: f32 = 1.5, 0.5..=8.0;
-        /// How much nearer to the light a point is taken to be. Larger: less acne on curved receivers, and a gap
-        /// between an object and its shadow.
-        pub constant_bias: f32 = 0.1, 0.0..=1000.0;
-        /// The share of the receiver's slope, from its normal, that the comparison follows from texel to texel:
-        /// 1 its own plane, 0 a plane that faces the light. Less: acne where light grazes.
-        pub slope_bias: f32 = 1.0, 0.0..=1.0;
-        /// How far a point is moved off its surface, less the more it faces the light. Larger: less acne where
-        /// normals do not tell the slope, and shadows move.
-        pub normal_offset: f32 = 0.25, 0.0..=1000.0;
+impl Options {
+    /// The same with another [`Self::size`].
+    pub fn size(self, size: u32) -> Self {
+        Self { size, ..self }
     }
+
+    /// The same with another [`Self::filter`].
+    pub fn filter(self, filter: Filter) -> Self {
+        Self { filter, ..self }
+    }
+
+    /// The same with another [`Self::radius`].
+    pub fn radius(self, radius: f32) -> Self {
+        Self { radius, ..self }
+    }
+
+    /// The same with another [`Self::constant_bias`].
+    pub fn constant_bias(self, constant_bias: f32) -> Self {
+        Self { constant_bias, ..self }
+    }
+
+    /// The same with another [`Self::slope_bias`].
+    pub fn slope_bias(self, slope_bias: f32) -> Self {
+        Self { slope_bias, ..self }
+    }
+
+    /// The same with another [`Self::normal_offset`].
+    pub fn normal_offset(self, normal_offset: f32) -> Self {
+        Self { normal_offset, ..self }
+    }
+}
+
+impl super::options::Options for Options {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::whole(
+            "size",
+            "Texels of a side of a map; of each of the faces in use for a point light. Four bytes each.",
+            (16, 8192),
+            |o| o.size,
+            |o, size| o.size = size,
+        ),
+        Field::choice(
+            "filter",
+            "How the map is looked up.",
+            Filter::CHOICES,
+            |o| o.filter as usize,
+            |o, place| o.filter = Filter::ALL[place],
+        ),
+        Field::number(
+            "radius",
+            "Half the side of the square of texels that `pcf` takes the mean of; an eighth of the map at most. Larger: \
+             smoother edges, less detail. 0.5 is a bilinear filter, 1.5 the usual 3 by 3 of those.",
+            (0.5, 8.0),
+            |o| o.radius,
+            |o, radius| o.radius = radius,
+        ),
+        Field::number(
+            "constant-bias",
+            "How much nearer to the light a point is taken to be. Larger: less acne on curved receivers, and a gap \
+             between an object and its shadow.",
+            (0.0, 1000.0),
+            |o| o.constant_bias,
+            |o, bias| o.constant_bias = bias,
+        ),
+        Field::number(
+            "slope-bias",
+            "The share of the receiver's slope, from its normal, that the comparison follows from texel to texel: 1 its \
+             own plane, 0 a plane that faces the light. Less: acne where light grazes.",
+            (0.0, 1.0),
+            |o| o.slope_bias,
+            |o, bias| o.slope_bias = bias,
+        ),
+        Field::number(
+            "normal-offset",
+            "How far a point is moved off its surface, less the more it faces the light. Larger: less acne where normals \
+             do not tell the slope, and shadows move.",
+            (0.0, 1000.0),
+            |o| o.normal_offset,
+            |o, offset| o.normal_offset = offset,
+        ),
+    ];
 }
 
 impl Behavior for Options {
@@ -110,14 +218,14 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
         vertex: Stage { defines: "", parts: &[include_str!("../../shaders/map/caster.vert.glsl")] },
         fragment: Stage { defines: "", parts: &[include_str!("../../shaders/map/caster.frag.glsl")] },
         uniforms: &["u_clip"],
-        lights: LightKind::Any,
+        when: When::Always,
     },
     ProgramSource {
         name: "map of a plane",
         vertex: Stage { defines: "", parts: &[include_str!("../../shaders/map/plane.vert.glsl")] },
         fragment: Stage { defines: "", parts: &[include_str!("../../shaders/map/plane.frag.glsl")] },
         uniforms: &["u_slope", "u_middle"],
-        lights: LightKind::Any,
+        when: When::Always,
     },
     lookup_program!("lookup", "NONE"),
     lookup_program!("lookup with PCF", "PCF"),
@@ -126,17 +234,15 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
 
 pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
     let light = scenery.lights.iter().position(|light| light.area != Area::None)?;
-    (options.filter != Filter::Pcss).then(|| Refusal {
-        part: Part::Light(light),
-        reason: "has no shadows of lights with an area unless its option filter is pcss".into(),
-    })
+    (options.filter != Filter::Pcss).then(|| Refusal::new(Part::Light(light), Reason::AreaWithoutPcss))
 }
 
 /// The OpenGL objects, and the memory of the fitting.
 pub(super) struct State {
+    options: Options,
     target: MapTarget,
     meshes: MeshCache,
-    screen: UploadRing,
+    screen: TileMesh,
     /// Without attributes.
     bare: glow::VertexArray,
     around: Surroundings,
@@ -144,24 +250,24 @@ pub(super) struct State {
     planes: Vec<Plane>,
     proxy: ProxyBuilder,
     tiles: TileGrid,
-    vertices: Vec<[f32; 2]>,
     /// Of each caster whether it is in the light's map.
     is_drawn: Vec<bool>,
     counts: Counts,
 }
 
-impl State {
-    /// # Safety
-    /// A [`crate::state::StateGuard`] is alive.
-    pub(super) unsafe fn new(gl: &glow::Context, _: &Caps) -> Result<Self, Error> {
-        // SAFETY: the caller's.
+impl Make for State {
+    type Options = Options;
+
+    unsafe fn make(gl: &glow::Context, _: &Caps, options: Options) -> Result<Self, Error> {
+        // SAFETY: the caller's; the first is deleted if the second cannot be made.
         unsafe {
-            let screen = UploadRing::new(gl, size_of::<[f32; 2]>() as i32)?;
+            let screen = TileMesh::new(gl)?;
             let Ok(bare) = gl.create_vertex_array() else {
                 screen.delete(gl);
-                return Err(Error::Resource { what: "a vertex array".into() });
+                return Err(Error::Resource(Resource::Vertices));
             };
             Ok(Self {
+                options,
                 target: MapTarget::default(),
                 meshes: MeshCache::default(),
                 screen,
@@ -170,11 +276,14 @@ impl State {
                 planes: Vec::new(),
                 proxy: ProxyBuilder::default(),
                 tiles: TileGrid::default(),
-                vertices: Vec::new(),
                 is_drawn: Vec::new(),
                 counts: Counts::default(),
             })
         }
+    }
+
+    fn set_options(&mut self, options: Options) {
+        self.options = options;
     }
 }
 
@@ -188,13 +297,12 @@ impl Method for State {
     }
 
     unsafe fn draw_visibility(&mut self, pass: &Pass<'_>, batch: &mut Batch<'_>) -> Result<(), Error> {
-        let Technique::Map(options) = pass.technique else { return Ok(()) };
         // SAFETY: the caller's.
         unsafe {
             let _raster = RasterGuard::new(pass.gl);
             for (index, light) in batch.lights.iter().enumerate() {
                 if light.intensity != glam::Vec3::ZERO {
-                    self.draw_light(pass, batch, index, light, options)?;
+                    self.draw_light(pass, batch, index, light)?;
                 }
             }
         }
@@ -202,9 +310,8 @@ impl Method for State {
     }
 
     unsafe fn draw_map(&mut self, pass: &Pass<'_>, light: &Light) -> Result<Option<DepthMap>, Error> {
-        let Technique::Map(options) = pass.technique else { return Ok(None) };
         // SAFETY: the caller's.
-        unsafe { self.draw_shown(pass, light, options) }
+        unsafe { self.draw_shown(pass, light) }
     }
 
     fn counts(&self) -> Counts {
@@ -233,17 +340,17 @@ impl State {
         batch: &mut Batch<'_>,
         index: usize,
         light: &Light,
-        options: &Options,
     ) -> Result<(), Error> {
+        let options = self.options;
         self.counts.pairs += self.around.casters.len() + self.around.planes.len();
-        let Some(fit) = self.fit(pass, light, options) else { return Ok(()) };
+        let Some(fit) = self.fit(pass, light) else { return Ok(()) };
         self.tiles.reset(pass.view.size());
         if light.area != Area::None || !self.planes.is_empty() {
             self.tiles.touch_all();
         } else {
             let texel = fit.some_face.texel(f64::from(options.size));
             let Self { tiles, proxy, around, .. } = self;
-            reach::touch(tiles, proxy, around, &light.place, (texel, fit::margin(options)), pass.view);
+            reach::touch(tiles, proxy, around, &light.place, (texel, fit::margin(&options)), pass.view);
         }
         if self.tiles.is_untouched() {
             return Ok(());
@@ -251,13 +358,13 @@ impl State {
         batch.tiles.add(&self.tiles);
         // SAFETY: the caller's.
         unsafe {
-            self.draw_fitted(pass, &fit, options)?;
-            self.look_up(pass, batch, index, light, &fit, options)
+            self.draw_fitted(pass, &fit)?;
+            self.look_up(pass, batch, index, light, &fit)
         }
     }
 
     /// Fits a light's map, and finds the planes that are in it. `None` if the light has no shadow in sight.
-    fn fit(&mut self, pass: &Pass<'_>, light: &Light, options: &Options) -> Option<Fit> {
+    fn fit(&mut self, pass: &Pass<'_>, light: &Light) -> Option<Fit> {
         if light.intensity == glam::Vec3::ZERO {
             return None; // takes nothing away
         }
@@ -265,17 +372,17 @@ impl State {
         self.planes.clear();
         self.planes.extend(self.around.planes.iter().filter_map(|&(plane, id)| {
             let shape = plane.transformed(&pass.view.view).into();
-            (!hides_its_own_shadow(&shape, id, &light_vs)).then_some(plane)
+            (!hides_its_own_shadow(&shape, id, &light_vs, pass.view.eye_vs())).then_some(plane)
         }));
-        Fit::new(&light.place, &self.around, &self.planes, options, light.area != Area::None)
+        Fit::new(&light.place, &self.around, &self.planes, &self.options, light.area != Area::None)
     }
 
     /// Draws what the light sees.
     ///
     /// # Safety
     /// As for [`Self::draw_light`].
-    unsafe fn draw_fitted(&mut self, pass: &Pass<'_>, fit: &Fit, options: &Options) -> Result<(), Error> {
-        let gl = pass.gl;
+    unsafe fn draw_fitted(&mut self, pass: &Pass<'_>, fit: &Fit) -> Result<(), Error> {
+        let (gl, options) = (pass.gl, self.options);
         let tiles = fit.faces.iter().flatten().count() as u32;
         // SAFETY: the caller's.
         unsafe { self.target.ensure(gl, pass.caps, options.size, tiles)? };
@@ -296,7 +403,7 @@ impl State {
                 gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.0]);
                 let program = pass.program(CASTER);
                 gl.use_program(Some(program.raw));
-                for (i, (caster, bounds)) in casters(pass).zip(&self.around.casters).enumerate() {
+                for (i, (caster, bounds)) in casters(&pass.frame).zip(&self.around.casters).enumerate() {
                     if face.misses(bounds) {
                         continue;
                     }
@@ -308,7 +415,7 @@ impl State {
                     gl.uniform_matrix_4_f32_slice(program.own[0].as_ref(), false, &clip.to_cols_array());
                     mesh.draw(gl);
                 }
-                self.draw_planes(pass, face, corner, options);
+                self.draw_planes(pass, face, corner);
             }
             gl.disable(glow::DEPTH_TEST);
             gl.disable(glow::SCISSOR_TEST);
@@ -319,9 +426,9 @@ impl State {
 
     /// # Safety
     /// As for [`Self::draw_light`]; the face's viewport is set.
-    unsafe fn draw_planes(&mut self, pass: &Pass<'_>, face: &Face, corner: DVec2, options: &Options) {
+    unsafe fn draw_planes(&mut self, pass: &Pass<'_>, face: &Face, corner: DVec2) {
         let (gl, program) = (pass.gl, pass.program(PLANE));
-        let size = f64::from(options.size);
+        let size = f64::from(self.options.size);
         for plane in &self.planes {
             // Texels counted from the middle of the face.
             let Some(slope) = face.depth_of_plane(plane, DVec2::splat(-0.5 * size), size) else { continue };
@@ -349,12 +456,9 @@ impl State {
         index: usize,
         light: &Light,
         fit: &Fit,
-        options: &Options,
     ) -> Result<(), Error> {
-        let gl = pass.gl;
+        let (gl, options) = (pass.gl, &self.options);
         let Some((texture, _)) = self.target.objects() else { return Ok(()) };
-        self.vertices.clear();
-        self.tiles.triangles(&mut self.vertices);
         let filter = match (options.filter, light.area) {
             (Filter::Pcss, Area::None) => Filter::Pcf,
             (filter, _) => filter,
@@ -363,9 +467,9 @@ impl State {
         let [.., width, height] = pass.view.viewport;
         // SAFETY: the caller's.
         unsafe {
-            let vertices = bytemuck::cast_slice(&self.vertices);
-            let upload = self.screen.upload(gl, pass.caps, vertices, &mut Vec::new())?;
-            gl.bind_vertex_array(Some(upload.vertex_array));
+            if !self.screen.bind(pass, &self.tiles)? {
+                return Ok(());
+            }
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(group.framebuffer));
             gl.viewport(0, 0, width, height);
             let program = pass.use_program(LOOKUP + filter as usize, pass.mask_offset());
@@ -374,7 +478,7 @@ impl State {
             let map = lookup::Map { light, fit, options, target: &self.target, planes: &self.planes };
             map.set(gl, program, pass.view, index);
             Blend::Min.apply(gl, *pass.caps);
-            gl.draw_arrays(glow::TRIANGLES, 0, self.vertices.len() as i32);
+            self.screen.draw(gl);
         }
         Ok(())
     }

@@ -1,9 +1,7 @@
 //! The tiles of the screen that a light's shadows can reach.
 
 use super::bounds::Surroundings;
-use crate::proxy::ProxyBuilder;
-use crate::tiles::TileGrid;
-use crate::view::View;
+use crate::screen::{ProxyBuilder, TileGrid, View};
 use antumbra_math::blocking::Blockers;
 use antumbra_math::{Light, Sphere};
 use glam::DVec4;

@@ -1,6 +1,7 @@
 //! The texture that every light's map is drawn to in turn.
 
-use crate::{Caps, Error};
+use crate::gl::Caps;
+use crate::input::{Error, Resource, Unsupported};
 use glam::DVec2;
 use glow::HasContext;
 
@@ -16,7 +17,7 @@ impl MapTarget {
     /// Makes room for so many tiles, 1 to 6.
     ///
     /// # Safety
-    /// A [`crate::state::StateGuard`] is alive: bindings are changed.
+    /// A [`crate::gl::StateGuard`] is alive: bindings are changed.
     pub(super) unsafe fn ensure(
         &mut self,
         gl: &glow::Context,
@@ -39,13 +40,10 @@ impl MapTarget {
                 _ => &[(3, 2)],
             };
             let Some(&(columns, rows)) = shapes.iter().find(|shape| fits(shape)) else {
-                return Err(Error::Unsupported {
-                    what: "shadow maps of this size",
-                    needs: "a smaller option `size`, a third of the driver's largest texture for point lights",
-                });
+                return Err(Error::Unsupported(Unsupported::LargeMaps));
             };
             let (width, height) = (size * columns, size * rows);
-            let refused = || Error::Resource { what: format!("a {width}x{height} shadow map") };
+            let refused = || Error::Resource(Resource::ShadowMap { width, height });
             let texture = gl.create_texture().map_err(|_| refused())?;
             let Ok(framebuffer) = gl.create_framebuffer() else {
                 gl.delete_texture(texture);

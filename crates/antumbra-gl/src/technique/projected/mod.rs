@@ -9,19 +9,16 @@
 mod plan;
 mod receivers;
 
-use super::options::{choices, options};
-use super::{About, Batch, Behavior, Method, Painter, Part, Pass, Refusal, Technique};
-use crate::mesh_buffers::MeshCache;
-use crate::proxy::ProxyBuilder;
-use crate::resources::{Target, TargetFormat, UploadRing};
-use crate::results::Counts;
-use crate::scenery::Scenery;
-use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
-use crate::state::{Blend, RasterGuard, set_color_mask};
-use crate::stencil::StencilBuffer;
-use crate::surface::bind_texture;
-use crate::tiles::TileGrid;
-use crate::{Caps, Encoding, Error};
+use super::method::{Behavior, Make, Painter};
+use super::options::Field;
+use super::{About, Method, Pass};
+use crate::gl::{
+    Blend, COVERAGE, Caps, MeshCache, ProgramSource, RasterGuard, SURFACE, Stage, StencilBuffer, Target,
+    TargetFormat, TileMesh, UploadRing, When, bind_texture, set_color_mask,
+};
+use crate::input::{Choice, Encoding, Error, Part, Reason, Refusal, Scenery};
+use crate::masks::{Batch, Counts, GROUP_LIGHTS, HostPicture};
+use crate::screen::{ProxyBuilder, TileGrid};
 use glam::DVec4;
 use glow::HasContext;
 use plan::{Draw, Plan};
@@ -34,27 +31,79 @@ pub(super) const ABOUT: About = About {
     falls_on: "planes and rectangles",
 };
 
-choices! {
+/// What a shadow does to the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Shade {
+    /// Takes the light's contribution away.
+    #[default]
+    Physical,
+    /// Paints black at half opacity over the displayed picture, as the module of 2002 does, once for each light;
+    /// also where a spot does not shine.
+    Paper,
+}
+
+impl Shade {
+    const ALL: [Self; 2] = [Self::Physical, Self::Paper];
+    /// In the same order.
+    const CHOICES: &[Choice] = &[
+        Choice::new("physical", "Takes the light's contribution away."),
+        Choice::new(
+            "paper",
+            "Paints black at half opacity over the displayed picture, as the module of 2002 does, once for each light; \
+             also where a spot does not shine.",
+        ),
+    ];
+}
+
+/// Options of the technique `projected`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
     /// What a shadow does to the picture.
-    pub enum Shade {
-        /// Takes the light's contribution away.
-        Physical = "physical",
-        /// Paints black at half opacity over the displayed picture, as the module of 2002 does, once for each light;
-        /// also where a spot does not shine.
-        Paper = "paper",
+    pub shade: Shade,
+    /// Whether a stencil buffer keeps shadows on their receivers and from being blended twice. Without it, to
+    /// show what it is for and with `shade=paper` alone, every triangle blends, wherever the receiver's plane
+    /// is not hidden.
+    pub stencil: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { shade: Shade::Physical, stencil: true }
     }
 }
 
-options! {
-    /// Options of the technique `projected`.
-    pub struct Options {
-        /// What a shadow does to the picture.
-        pub shade: Shade = Shade::Physical, ();
-        /// Whether a stencil buffer keeps shadows on their receivers and from being blended twice. Without it, to
-        /// show what it is for and with `shade=paper` alone, every triangle blends, wherever the receiver's plane
-        /// is not hidden.
-        pub stencil: bool = true, ();
+impl Options {
+    /// The same with another [`Self::shade`].
+    pub fn shade(self, shade: Shade) -> Self {
+        Self { shade, ..self }
     }
+
+    /// The same with or without the [`Self::stencil`].
+    pub fn stencil(self, stencil: bool) -> Self {
+        Self { stencil, ..self }
+    }
+}
+
+impl super::options::Options for Options {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::choice(
+            "shade",
+            "What a shadow does to the picture.",
+            Shade::CHOICES,
+            |o| o.shade as usize,
+            |o, place| o.shade = Shade::ALL[place],
+        ),
+        Field::switch(
+            "stencil",
+            "Whether a stencil buffer keeps shadows on their receivers and from being blended twice. Without it, to show \
+             what it is for and with `shade=paper` alone, every triangle blends, wherever the receiver's plane is not \
+             hidden.",
+            |o| o.stencil,
+            |o, on| o.stencil = on,
+        ),
+    ];
 }
 
 impl Behavior for Options {
@@ -88,7 +137,7 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
         vertex: caster_stage!("caster.vert.glsl"),
         fragment: caster_stage!("caster.frag.glsl"),
         uniforms: &["u_to_clip", "u_height", "u_shade"],
-        lights: LightKind::Any,
+        when: When::Always,
     },
     screen_program!("projected paint", "paint.frag.glsl", &["u_painted", "u_painted_offset", "u_exponent"]),
 ];
@@ -100,9 +149,6 @@ const PAINT: usize = 2;
 const MARKS: i32 = 0x0f;
 /// The bit that the first light of a target sets where it has darkened a pixel; the next ones are for the next lights.
 const DARKENED: i32 = 0x10;
-/// Lights with such a bit: as many as a mask has channels.
-const GROUP_LIGHTS: usize = 4;
-
 /// What a painted shadow leaves of a displayed value: black at half opacity, as in the module of 2002.
 const PAINTED: f32 = 0.5;
 /// Displayed values are about the linear ones to the power of 1 / 2.2: sRGB's curve, nearly.
@@ -110,22 +156,20 @@ const DISPLAY_GAMMA: f32 = 2.2;
 
 pub(super) fn refusal(options: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
     if !options.stencil && options.shade == Shade::Physical {
-        let reason = "needs the stencil to take a light away; add shade=paper to do without";
-        return Some(Refusal { part: Part::Options, reason: reason.into() });
+        return Some(Refusal::new(Part::Options, Reason::PhysicalWithoutStencil));
     }
     Refusal::of_areas(scenery.lights).or_else(|| {
-        let refusal = || Refusal {
-            part: Part::Receivers,
-            reason: "casts on planes and rectangles alone, and has none to fall on".into(),
-        };
+        let refusal = || Refusal::new(Part::Receivers, Reason::NoReceivers);
         scenery.receivers.is_empty().then(refusal)
     })
 }
 
 /// The OpenGL objects, and the memory of the planning.
 pub(super) struct State {
+    options: Options,
     meshes: MeshCache,
     screen: UploadRing,
+    tiles: TileMesh,
     stencil: StencilBuffer,
     /// What painted shadows leave of the picture.
     painted: Option<Target>,
@@ -136,23 +180,35 @@ pub(super) struct State {
     plan: Plan,
 }
 
-impl State {
-    /// # Safety
-    /// A [`crate::state::StateGuard`] is alive.
-    pub(super) unsafe fn new(gl: &glow::Context, _: &Caps) -> Result<Self, Error> {
-        Ok(Self {
-            meshes: MeshCache::default(),
-            // SAFETY: the caller's.
-            screen: unsafe { UploadRing::new(gl, size_of::<[f32; 2]>() as i32)? },
-            stencil: StencilBuffer::default(),
-            painted: None,
-            proxy: ProxyBuilder::default(),
-            receivers: Receivers::default(),
-            receiver_vertices: None,
-            plan: Plan::default(),
-        })
+impl Make for State {
+    type Options = Options;
+
+    unsafe fn make(gl: &glow::Context, _: &Caps, options: Options) -> Result<Self, Error> {
+        // SAFETY: the caller's; the first is deleted if the second cannot be made.
+        unsafe {
+            let screen = UploadRing::new(gl, size_of::<[f32; 2]>() as i32)?;
+            let tiles = TileMesh::new(gl).inspect_err(|_| screen.delete(gl))?;
+            Ok(Self {
+                options,
+                meshes: MeshCache::default(),
+                screen,
+                tiles,
+                stencil: StencilBuffer::default(),
+                painted: None,
+                proxy: ProxyBuilder::default(),
+                receivers: Receivers::default(),
+                receiver_vertices: None,
+                plan: Plan::default(),
+            })
+        }
     }
 
+    fn set_options(&mut self, options: Options) {
+        self.options = options;
+    }
+}
+
+impl State {
     /// Draws the shadows of a group of the planned lights, at most [`GROUP_LIGHTS`] from `first_light` on, into a
     /// target, which is left bound.
     ///
@@ -170,7 +226,7 @@ impl State {
             return Ok(());
         }
         let gl = pass.gl;
-        let once = options(pass).stencil;
+        let once = self.options.stencil;
         let last_mark = if once { MARKS } else { 1 };
         // SAFETY: the caller's; the guard outlives the settings.
         unsafe {
@@ -253,7 +309,7 @@ impl State {
         let (gl, [_, _, width, height]) = (pass.gl, pass.view.viewport);
         // SAFETY: the caller's.
         unsafe {
-            Target::ensure(slot, gl, TargetFormat::Rgba8, (width, height), pass.frame.surface.samples)?;
+            pass.ensure_target(slot, TargetFormat::Rgba8)?;
             let target = slot.as_ref().expect("made above");
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(target.framebuffer));
             gl.viewport(0, 0, width, height);
@@ -301,7 +357,7 @@ impl State {
 
 impl Method for State {
     unsafe fn begin(&mut self, pass: &Pass<'_>) -> Result<(), Error> {
-        let unbounded = !options(pass).stencil;
+        let unbounded = !self.options.stencil;
         self.receivers.place(pass.frame.receivers, unbounded, &mut self.proxy, pass.view);
         // SAFETY: the caller's.
         unsafe {
@@ -328,8 +384,8 @@ impl Method for State {
         Ok(())
     }
 
-    fn painter(&mut self, pass: &Pass<'_>) -> Option<&mut dyn Painter> {
-        options(pass).paints().then_some(self as &mut dyn Painter)
+    fn painter(&mut self) -> Option<&mut dyn Painter> {
+        Some(self)
     }
 
     fn counts(&self) -> Counts {
@@ -341,6 +397,7 @@ impl Method for State {
         unsafe {
             self.meshes.delete(gl);
             self.screen.delete(gl);
+            self.tiles.delete(gl);
             self.stencil.delete(gl);
             self.painted.take().into_iter().for_each(|target| target.delete(gl));
         }
@@ -353,7 +410,7 @@ impl Painter for State {
     unsafe fn paint(
         &mut self,
         pass: &Pass<'_>,
-        encoding: Encoding,
+        host: HostPicture,
         tiles: &mut TileGrid,
     ) -> Result<(), Error> {
         let gl = pass.gl;
@@ -361,17 +418,14 @@ impl Painter for State {
         let mut painted = self.painted.take();
         // SAFETY: the caller's.
         unsafe {
-            let host = gl.get_parameter_framebuffer(glow::DRAW_FRAMEBUFFER_BINDING);
             let drawn = self.draw_painted(pass, &mut painted, tiles);
-            self.receivers.vertices.clear();
-            tiles.triangles(&mut self.receivers.vertices);
             self.painted = painted;
             drawn?;
-            let count = self.receivers.vertices.len() as i32;
-            let (Some(painted), 1..) = (&self.painted, count) else { return Ok(()) };
-            let vertices = bytemuck::cast_slice(&self.receivers.vertices);
-            let upload = self.screen.upload(gl, pass.caps, vertices, &mut Vec::new())?;
-            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host);
+            let Some(painted) = &self.painted else { return Ok(()) };
+            if !self.tiles.bind(pass, tiles)? {
+                return Ok(());
+            }
+            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
             gl.viewport(x, y, width, height);
             let program = pass.use_program(PAINT, [0, 0]);
             let [painted_at, offset_at, exponent_at] = &program.own[..] else {
@@ -380,19 +434,10 @@ impl Painter for State {
             gl.uniform_1_i32(painted_at.as_ref(), 3);
             bind_texture(gl, 3, pass.frame.surface.samples, painted.texture);
             gl.uniform_2_i32(offset_at.as_ref(), -x, -y);
-            let exponent = if encoding == Encoding::Linear { DISPLAY_GAMMA } else { 1.0 };
+            let exponent = if host.encoding == Encoding::Linear { DISPLAY_GAMMA } else { 1.0 };
             gl.uniform_1_f32(exponent_at.as_ref(), exponent);
-            gl.bind_vertex_array(Some(upload.vertex_array));
-            gl.draw_arrays(glow::TRIANGLES, 0, count);
+            self.tiles.draw(gl);
         }
         Ok(())
-    }
-}
-
-/// The technique's options.
-fn options(pass: &Pass<'_>) -> Options {
-    match pass.technique {
-        Technique::Projected(options) => *options,
-        _ => Options::default(),
     }
 }

@@ -1,14 +1,12 @@
 //! What is to be drawn: every light, receiver and caster, culled, with its matrix.
 
-use super::receivers::{Receivers, eye, facing, height, plane_model};
-use crate::Error;
-use crate::mesh_buffers::MeshCache;
-use crate::proxy::ProxyBuilder;
-use crate::results::Counts;
-use crate::scenery::Light;
+use super::receivers::{Receivers, plane_model};
+use crate::gl::MeshCache;
+use crate::input::{Error, Light};
+use crate::masks::Counts;
+use crate::screen::{ProxyBuilder, TileGrid, hides_its_own_shadow};
 use crate::technique::Pass;
 use crate::technique::casters::{casters, planes};
-use crate::tiles::TileGrid;
 use antumbra_math::mesh::planar_projection;
 use antumbra_math::{Plane, TriangleMesh};
 use glam::{DMat4, DVec3, DVec4};
@@ -76,13 +74,13 @@ impl Plan {
     pub(super) unsafe fn begin(&mut self, pass: &Pass<'_>, meshes: &mut MeshCache) -> Result<(), Error> {
         self.posed.clear();
         self.counts = Counts::default();
-        for caster in casters(pass) {
+        for caster in casters(&pass.frame) {
             // SAFETY: the caller's.
             unsafe { self.pose(pass, meshes, caster.mesh, caster.model, caster.id)? };
             let posed = self.posed.last_mut().expect("posed above");
             posed.flat = flat(&posed.corners);
         }
-        for (plane, id) in planes(pass) {
+        for (plane, id) in planes(&pass.frame) {
             if plane.normal.is_finite() && plane.offset.is_finite() && plane.normal != DVec3::ZERO {
                 let model = plane_model(&plane, pass.view);
                 // SAFETY: the caller's.
@@ -128,26 +126,26 @@ impl Plan {
     ) {
         self.draws.clear();
         let view = pass.view;
-        let eye = eye(view);
+        let eye = view.eye_ws();
         let to_clip = view.projection * view.view;
         for (receiver, placed) in receivers.placed.iter().enumerate() {
             for (light, source) in lights.iter().enumerate() {
                 let l = source.place.homogeneous();
                 // The side that is seen must be the one that is lit; a light in the plane lights neither.
                 let lit = l.is_finite()
-                    && height(&placed.plane, l) > 0.0
-                    && facing(&placed.plane, l).is_some()
+                    && placed.plane.height_of(l) > 0.0
+                    && placed.plane.facing(l).is_some()
                     && source.intensity != glam::Vec3::ZERO;
                 if !lit {
                     continue;
                 }
-                let flatten = planar_projection(&placed.plane, l) * height(&placed.plane, l).recip();
+                let flatten = planar_projection(&placed.plane, l) * placed.plane.height_of(l).recip();
                 for (caster, posed) in self.posed.iter().enumerate() {
                     self.counts.pairs += 1;
                     let own = posed.id != 0 && posed.id == placed.id;
                     if own
                         || posed.is_edge_on(l)
-                        || posed.hides_its_own_shadow(l, eye)
+                        || posed.is_hidden(&source.place, eye)
                         || !posed.is_reached(source)
                     {
                         continue;
@@ -199,17 +197,16 @@ enum Reach {
 }
 
 impl Posed {
-    /// Whether nothing that is seen can lie in the shadow: an opaque infinite plane, drawn by the host, with the eye
-    /// on the light's side hides all that it takes the light from.
-    fn hides_its_own_shadow(&self, light: DVec4, eye: DVec4) -> bool {
-        let Some(plane) = self.flat else { return false };
-        self.infinite && self.id != 0 && eye.w > 0.0 && height(&plane, light) * height(&plane, eye) > 0.0
+    /// Whether nothing that is seen can lie in the shadow of an infinite plane.
+    fn is_hidden(&self, light: &antumbra_math::Light, eye: DVec4) -> bool {
+        let plane = self.flat.filter(|_| self.infinite);
+        plane.is_some_and(|plane| hides_its_own_shadow(&plane.into(), self.id, light, eye))
     }
 
     /// Whether it is flat and the light in its plane, which then takes nothing: its matrix would make of the light
     /// no point at all, and of what is round it, by rounding, anything.
     fn is_edge_on(&self, light: DVec4) -> bool {
-        self.flat.is_some_and(|plane| facing(&plane, light).is_none())
+        self.flat.is_some_and(|plane| plane.facing(light).is_none())
     }
 
     /// Whether any light arrives at the caster: false only outside a spot's cone.
@@ -227,7 +224,7 @@ impl Posed {
     /// `shadow`: the shadows of the corners of its box.
     fn reach(&self, plane: &Plane, sides: &[DVec4; 2], shadow: &[DVec4; 8]) -> Reach {
         let heights = self.corners.map(|c| {
-            let h = height(plane, c);
+            let h = plane.height_of(c);
             let rounding = ROUNDING * (c.truncate().length() + plane.offset.abs() * c.w);
             if h.abs() <= rounding { 0.0 } else { h }
         });

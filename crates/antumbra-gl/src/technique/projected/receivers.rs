@@ -1,8 +1,7 @@
 //! The receivers that are seen: their planes, their bounds, and where they are on the screen.
 
-use crate::proxy::ProxyBuilder;
-use crate::scenery::{Receiver, ReceiverShape};
-use crate::view::View;
+use crate::input::{Receiver, ReceiverShape};
+use crate::screen::{ProxyBuilder, View};
 use antumbra_math::Plane;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use std::ops::Range;
@@ -43,9 +42,9 @@ impl Receivers {
         self.placed.clear();
         self.vertices.clear();
         self.points.clear();
-        let eye = eye(view);
+        let eye = view.eye_ws();
         for receiver in receivers {
-            let Some(plane) = facing(&receiver.plane(), eye) else { continue };
+            let Some(plane) = receiver.plane().facing(eye) else { continue };
             let polygon = match receiver.shape {
                 ReceiverShape::Rectangle(r) if !unbounded => {
                     let to_clip = view.projection * view.view;
@@ -61,8 +60,7 @@ impl Receivers {
             }
             let first_vertex = self.vertices.len() as i32;
             for corners in polygon[1..].windows(2) {
-                let clip = |p: DVec2| (p / view.size() * 2.0 - 1.0).as_vec2().to_array();
-                self.vertices.extend([polygon[0], corners[0], corners[1]].map(clip));
+                self.vertices.extend([polygon[0], corners[0], corners[1]].map(|p| view.clip_position(p)));
             }
             let first = self.points.len();
             self.points.extend_from_slice(polygon);
@@ -87,27 +85,6 @@ impl Receivers {
     pub(super) fn polygon(&self, placed: &Placed) -> &[DVec2] {
         &self.points[placed.polygon.clone()]
     }
-}
-
-/// The eye as a homogeneous point, world space: of a parallel view the direction to it.
-pub(super) fn eye(view: &View) -> DVec4 {
-    let perspective = view.pixel_step[2] > 0.5;
-    view.view.inverse() * if perspective { DVec4::W } else { DVec4::Z }
-}
-
-/// The plane with its normal on the side of a homogeneous point; `None` for a point in the plane, to a part 1e-9 of
-/// its distance and the plane's from the origin, and for a plane that is not finite.
-pub(super) fn facing(plane: &Plane, point: DVec4) -> Option<Plane> {
-    let height = height(plane, point);
-    let rounding = 1e-9 * (point.truncate().length() + plane.offset.abs() * point.w);
-    let clear = plane.normal.is_finite() && height.is_finite() && height.abs() > rounding;
-    let side = height.signum();
-    clear.then_some(Plane { normal: plane.normal * side, offset: plane.offset * side })
-}
-
-/// The signed distance of a homogeneous point from a plane, times the point's weight.
-pub(super) fn height(plane: &Plane, point: DVec4) -> f64 {
-    plane.normal.dot(point.truncate()) - plane.offset * point.w
 }
 
 /// From the square |x| + |z| <= y of the pyramid that stands for an infinite plane to that plane: the tip to the point

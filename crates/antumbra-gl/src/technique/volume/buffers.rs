@@ -1,7 +1,7 @@
 //! Vertex buffers for volumes.
 
 use super::packer::Vertex;
-use crate::Error;
+use crate::input::{Error, Resource, Unsupported};
 use glow::HasContext;
 use std::mem::offset_of;
 
@@ -25,7 +25,7 @@ impl VolumeBuffers {
     /// Empty storage.
     ///
     /// # Safety
-    /// A [`crate::state::StateGuard`] is alive: bindings are changed.
+    /// A [`crate::gl::StateGuard`] is alive: bindings are changed.
     pub(super) unsafe fn new(gl: &glow::Context) -> Result<Self, Error> {
         let mut buffers = Self { uploads: Vec::with_capacity(UPLOADS), next: 0, bytes: 0 };
         for _ in 0..UPLOADS {
@@ -47,7 +47,7 @@ impl VolumeBuffers {
     /// frame.
     ///
     /// # Safety
-    /// A [`crate::state::StateGuard`] is alive: bindings are changed.
+    /// A [`crate::gl::StateGuard`] is alive: bindings are changed.
     pub(super) unsafe fn upload(
         &mut self,
         gl: &glow::Context,
@@ -59,10 +59,7 @@ impl VolumeBuffers {
             if bytes.len() > self.bytes {
                 let size = bytes.len().checked_next_power_of_two().and_then(|size| i32::try_from(size).ok());
                 let Some(size) = size else {
-                    return Err(Error::Unsupported {
-                        what: "shadow volumes of this many polygons",
-                        needs: "coarser meshes, or fewer",
-                    });
+                    return Err(Error::Unsupported(Unsupported::ManyPolygons));
                 };
                 self.bytes = size as usize;
                 for upload in &self.uploads {
@@ -93,7 +90,7 @@ impl VolumeBuffers {
 
 impl Upload {
     unsafe fn new(gl: &glow::Context) -> Result<Self, Error> {
-        let refused = || Error::Resource { what: "a vertex buffer for shadow volumes".into() };
+        let refused = || Error::Resource(Resource::Vertices);
         let stride = size_of::<Vertex>() as i32;
         // SAFETY: a guard is alive; the attributes are the vertex's fields.
         unsafe {

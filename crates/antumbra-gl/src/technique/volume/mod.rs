@@ -11,15 +11,15 @@ mod eye;
 mod packer;
 mod polygon;
 
-use super::options::{choices, options};
-use super::{About, Batch, Behavior, Method, Pass, Refusal, Technique};
-use crate::resources::{Target, UploadRing};
-use crate::results::Counts;
-use crate::scenery::Scenery;
-use crate::shader::{COVERAGE, LightKind, ProgramSource, SURFACE, Stage};
-use crate::state::{Blend, RasterGuard, set_color_mask};
-use crate::stencil::StencilBuffer;
-use crate::{Caps, Error};
+use super::method::{Behavior, Make};
+use super::options::Field;
+use super::{About, Method, Pass};
+use crate::gl::{
+    Blend, COVERAGE, Caps, ProgramSource, RasterGuard, SURFACE, Stage, StencilBuffer, Target, UploadRing,
+    When, set_color_mask,
+};
+use crate::input::{Choice, Error, Refusal, Scenery};
+use crate::masks::{Batch, Counts, GROUP_LIGHTS};
 use buffers::VolumeBuffers;
 use glow::HasContext;
 use packer::{LightDraw, Packer};
@@ -31,26 +31,62 @@ pub(super) const ABOUT: About = About {
     falls_on: "anything",
 };
 
-choices! {
-    /// Which polygons of a volume are counted at a point.
-    pub enum Counting {
-        /// Those in front of the point, for volumes that the eye is outside of by a margin; those behind it for
-        /// the others. As robust as depth-fail, and nearly as cheap as depth-pass.
-        PerVolume = "per-volume",
-        /// Those in front of the point, starting from the number of volumes that hold the eye. Within rounding
-        /// of a volume's side the eye is on neither, and the picture may be wrong.
-        DepthPass = "depth-pass",
-        /// Those behind the point, caps included.
-        DepthFail = "depth-fail",
+/// Which polygons of a volume are counted at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Counting {
+    /// Those in front of the point, for volumes that the eye is outside of by a margin; those behind it for
+    /// the others. As robust as depth-fail, and nearly as cheap as depth-pass.
+    #[default]
+    PerVolume,
+    /// Those in front of the point, starting from the number of volumes that hold the eye. Within rounding
+    /// of a volume's side the eye is on neither, and the picture may be wrong.
+    DepthPass,
+    /// Those behind the point, caps included.
+    DepthFail,
+}
+
+impl Counting {
+    const ALL: [Self; 3] = [Self::PerVolume, Self::DepthPass, Self::DepthFail];
+    /// In the same order.
+    const CHOICES: &[Choice] = &[
+        Choice::new(
+            "per-volume",
+            "Those in front of the point, for volumes that the eye is outside of by a margin; those behind it for the \
+             others. As robust as depth-fail, and nearly as cheap as depth-pass.",
+        ),
+        Choice::new(
+            "depth-pass",
+            "Those in front of the point, starting from the number of volumes that hold the eye. Within rounding of a \
+             volume's side the eye is on neither, and the picture may be wrong.",
+        ),
+        Choice::new("depth-fail", "Those behind the point, caps included."),
+    ];
+}
+
+/// Options of the technique `volume`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// Which polygons are counted.
+    pub counting: Counting,
+}
+
+impl Options {
+    /// The same with another [`Self::counting`].
+    pub fn counting(self, counting: Counting) -> Self {
+        Self { counting }
     }
 }
 
-options! {
-    /// Options of the technique `volume`.
-    pub struct Options {
-        /// Which polygons are counted.
-        pub counting: Counting = Counting::PerVolume, ();
-    }
+impl super::options::Options for Options {
+    const FIELDS: &'static [Field<Self>] = &[Field::choice(
+        "counting",
+        "Which polygons are counted.",
+        Counting::CHOICES,
+        |o| o.counting as usize,
+        |o, place| o.counting = Counting::ALL[place],
+    )];
 }
 
 impl Behavior for Options {}
@@ -65,7 +101,7 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
             parts: &[COVERAGE, SURFACE, include_str!("../../shaders/volume/count.frag.glsl")],
         },
         uniforms: &[],
-        lights: LightKind::Any,
+        when: When::Always,
     },
     ProgramSource::screen(
         "volume_resolve",
@@ -79,34 +115,39 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
 const COUNT: usize = 0;
 const RESOLVE: usize = 1;
 
-/// Lights in one mask.
-const MASK_LIGHTS: usize = 4;
-
 pub(super) fn refusal(_: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
     Refusal::of_areas(scenery.lights)
 }
 
 /// The OpenGL objects, and the memory of the packing.
 pub(super) struct State {
+    options: Options,
     stencil: StencilBuffer,
     volumes: VolumeBuffers,
     tiles: UploadRing,
     packer: Packer,
 }
 
-impl State {
-    /// # Safety
-    /// A [`crate::state::StateGuard`] is alive.
-    pub(super) unsafe fn new(gl: &glow::Context, _: &Caps) -> Result<Self, Error> {
+impl Make for State {
+    type Options = Options;
+
+    unsafe fn make(gl: &glow::Context, _: &Caps, options: Options) -> Result<Self, Error> {
         // SAFETY: the caller's; the first is deleted if the second cannot be made.
         unsafe {
             let mut volumes = VolumeBuffers::new(gl)?;
             let tiles =
                 UploadRing::new(gl, size_of::<[f32; 2]>() as i32).inspect_err(|_| volumes.delete(gl))?;
-            Ok(Self { stencil: StencilBuffer::default(), volumes, tiles, packer: Packer::default() })
+            let (stencil, packer) = (StencilBuffer::default(), Packer::default());
+            Ok(Self { options, stencil, volumes, tiles, packer })
         }
     }
 
+    fn set_options(&mut self, options: Options) {
+        self.options = options;
+    }
+}
+
+impl State {
     /// Draws the lights of one mask.
     ///
     /// # Safety
@@ -132,7 +173,7 @@ impl State {
                 gl.bind_vertex_array(Some(volumes));
                 gl.draw_arrays(glow::TRIANGLES, draw.polygons.0, draw.polygons.1);
 
-                let channel = draw.light % MASK_LIGHTS;
+                let channel = draw.light % GROUP_LIGHTS;
                 set_color_mask(gl, caps, std::array::from_fn(|i| i == channel));
                 gl.stencil_func(glow::NOTEQUAL, 0, 0xff);
                 gl.stencil_op(glow::KEEP, glow::KEEP, glow::KEEP);
@@ -151,10 +192,7 @@ impl Method for State {
     }
 
     unsafe fn draw_visibility(&mut self, pass: &Pass<'_>, batch: &mut Batch<'_>) -> Result<(), Error> {
-        let Technique::Volume(options) = pass.technique else {
-            unreachable!("a method is called with its own technique")
-        };
-        self.packer.pack(pass, options.counting, batch);
+        self.packer.pack(pass, self.options.counting, batch);
         if self.packer.draws.is_empty() {
             return Ok(());
         }
@@ -169,7 +207,7 @@ impl Method for State {
             gl.enable(glow::STENCIL_TEST);
             gl.enable(glow::SCISSOR_TEST);
             let draws = &self.packer.draws;
-            let split = draws.partition_point(|draw| draw.light < MASK_LIGHTS);
+            let split = draws.partition_point(|draw| draw.light < GROUP_LIGHTS);
             let (first, second) = draws.split_at(split);
             for (mask, draws) in batch.masks.into_iter().zip([first, second]) {
                 if draws.is_empty() {

@@ -4,12 +4,12 @@ use super::Counting;
 use super::boundary::{Boundary, Cap};
 use super::eye::{is_clear, layers};
 use super::polygon::{Eye, Front, front};
-use crate::proxy::{ProxyBuilder, crossing, nearest_end};
-use crate::results::Counts;
+use crate::masks::{Batch, Counts};
+use crate::screen::{
+    ProxyBuilder, TileGrid, View, crossing, hides_its_own_shadow, nearest_end, seen_half_spaces,
+};
+use crate::technique::Pass;
 use crate::technique::casters::{Caster, caster_of};
-use crate::technique::{Batch, Pass};
-use crate::tiles::TileGrid;
-use crate::view::View;
 use antumbra_math::blocking::Blockers;
 use antumbra_math::{Light, Plane, Shape, Sphere};
 use glam::{DVec2, DVec3, DVec4};
@@ -90,23 +90,17 @@ impl Packer {
         self.counts = Counts::default();
         self.posed.clear();
         self.bounds_vs.clear();
-        let to_view = &pass.view.view;
-        let eye_ws = to_view.inverse().transform_point3(DVec3::ZERO);
-        self.bounds_vs.extend(pass.frame.bounds.iter().map(|b| b.transformed(to_view)));
-        for (index, o) in pass.frame.occluders.iter().enumerate() {
+        let (to_view, frame) = (&pass.view.view, &pass.frame);
+        seen_half_spaces(frame.occluders, frame.bounds, pass.view, &mut self.bounds_vs);
+        for (index, o) in frame.occluders.iter().enumerate() {
             let shape = o.shape.transformed(to_view);
             let (center, radius) = shape.bounding_sphere();
             let shape = Some(shape);
             self.posed.push(Posed { index, is_mesh: false, shape, id: o.id, center, radius });
-            // Nothing is seen behind an opaque plane that the host draws, unless the eye is in it.
-            if let (Shape::Plane(plane), true) = (&o.shape, o.id != 0) {
-                self.bounds_vs.extend(plane.towards(eye_ws).map(|side| side.transformed(to_view)));
-            }
         }
         self.ends_vs.clear();
-        let eye = if pass.view.pixel_step[2] > 0.5 { DVec4::W } else { DVec4::Z };
-        let holds_eye = |p: &&Plane| p.normal.dot(eye.truncate()) - p.offset * eye.w > 0.0;
-        self.ends_vs.extend(self.bounds_vs.iter().filter(holds_eye));
+        let eye = pass.view.eye_vs();
+        self.ends_vs.extend(self.bounds_vs.iter().filter(|plane| plane.height_of(eye) > 0.0));
         for (index, m) in pass.frame.meshes.iter().enumerate() {
             let model = *to_view * m.model;
             let sphere = m.mesh.bounding_sphere();
@@ -162,8 +156,10 @@ impl Packer {
             return;
         }
         let l = light.homogeneous();
-        if let Some(Shape::Plane(plane)) = posed.shape {
-            self.pack_plane(&plane, id, l);
+        if let Some(shape @ Shape::Plane(plane)) = posed.shape {
+            if !hides_its_own_shadow(&shape, id, light, eye.place) {
+                self.pack_plane(&plane, id, l);
+            }
             return;
         }
         let caster = if is_mesh {
@@ -219,11 +215,9 @@ impl Packer {
 
     /// The half-space behind an infinite plane.
     fn pack_plane(&mut self, plane: &Plane, id: u32, light: DVec4) {
-        let height = plane.normal.dot(light.truncate()) - plane.offset * light.w;
+        let height = plane.height_of(light);
         let in_plane = height.abs() <= 1e-12 * (light.length() + plane.offset.abs() * light.w);
-        // A plane that the host draws, with the eye on the light's side, hides all of it.
-        let is_hidden = id != 0 && height * plane.height(DVec3::ZERO) > 0.0;
-        if in_plane || is_hidden || !plane.normal.is_finite() || !plane.offset.is_finite() {
+        if in_plane || !plane.normal.is_finite() || !plane.offset.is_finite() {
             return;
         }
         let side = -height.signum();

@@ -1,6 +1,6 @@
 //! One polygon of a shadow volume: for which points it lies between them and the eye.
 
-use crate::view::View;
+use crate::screen::View;
 use glam::{DVec3, DVec4};
 
 /// A polygon whose projection is thinner than this, in pixels, is seen edge-on: where it lies in depth is taken
@@ -24,8 +24,8 @@ pub(super) struct Eye {
 
 impl Eye {
     pub(super) fn new(view: &View, zero_to_one: bool) -> Self {
-        let perspective = view.pixel_step[2] > 0.5;
-        let background = f64::from(view.background_depth[0]);
+        let numbers = &view.surface;
+        let background = f64::from(numbers.background_depth[0]);
         let ndc = |depth: f64| if zero_to_one { depth } else { 2.0 * depth - 1.0 };
         let inverse = view.projection.inverse();
         let z = |depth: f64| {
@@ -34,10 +34,10 @@ impl Eye {
         };
         let near = z(if background > 0.5 { 0.0 } else { 1.0 });
         Self {
-            place: if perspective { DVec4::W } else { DVec4::Z },
+            place: view.eye_vs(),
             near,
-            pixel: f64::from(view.pixel_step[0].min(view.pixel_step[1])),
-            depth: if perspective { f64::INFINITY } else { (near - z(background)).abs() },
+            pixel: f64::from(numbers.pixel_step[0].min(numbers.pixel_step[1])),
+            depth: if view.is_perspective() { f64::INFINITY } else { (near - z(background)).abs() },
         }
     }
 

@@ -10,7 +10,7 @@ use crate::samples;
 use crate::shot::Shot;
 use crate::snapshot::{assert_same, snapshot};
 use crate::world::{ONE_OF_EACH, World};
-use antumbra_gl::technique::Part;
+use antumbra_gl::Part;
 use antumbra_gl::{Area, Encoding, Error, Frame, Light, Receiver, ReceiverShape};
 use antumbra_math::{Plane, Rectangle};
 use glam::{DVec3, Vec3};
@@ -105,12 +105,18 @@ fn what_it_cannot_do_is_refused() {
         };
         let frame = shot.frame();
         let nowhere = refused("projected", &Frame { receivers: &[], ..frame });
-        assert!(nowhere.part == Part::Receivers && nowhere.reason.contains("none to fall on"), "{nowhere:?}");
+        assert!(
+            nowhere.part == Part::Receivers && nowhere.reason.to_string().contains("none to fall on"),
+            "{nowhere:?}"
+        );
         let area = world.lights[0].with_area(Area::Sphere { radius: 0.1 });
         let lights = [world.lights[1], area];
         assert_eq!(refused("projected", &Frame { lights: &lights, ..frame }).part, Part::Light(1), "an area");
         let options = refused("projected:stencil=off", &frame);
-        assert!(options.part == Part::Options && options.reason.contains("shade=paper"), "{options:?}");
+        assert!(
+            options.part == Part::Options && options.reason.to_string().contains("shade=paper"),
+            "{options:?}"
+        );
         renderer(gl, "projected:shade=paper:stencil=off").masks(&frame, |_| {}).expect("for teaching");
     });
 }

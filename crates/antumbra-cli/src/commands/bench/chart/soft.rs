@@ -179,10 +179,10 @@ fn scale((low, high): (f64, f64), labels: Vec<f64>) -> Scale {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::figures::FigureName;
     use super::super::svg;
     use super::super::tests::report;
     use super::*;
+    use crate::args::FigureName;
     use crate::args::Size;
 
     fn soft(value: impl Fn(usize) -> f64) -> [String; 2] {

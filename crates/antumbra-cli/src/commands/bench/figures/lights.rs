@@ -1,8 +1,8 @@
 //! How techniques scale with the number of lights.
 
 use super::text::SceneText;
-use super::{Axis, Figure, FigureName, Place, with_opengl};
-use crate::args::Size;
+use super::{Axis, Figure, Place, with_opengl};
+use crate::args::{FigureName, Size};
 
 const SPHERES: u32 = 8;
 

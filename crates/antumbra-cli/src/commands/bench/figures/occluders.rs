@@ -1,8 +1,8 @@
 //! How techniques scale with the number of things that cast shadows.
 
 use super::text::SceneText;
-use super::{Axis, Figure, FigureName, Place, with_opengl};
-use crate::args::Size;
+use super::{Axis, Figure, Place, with_opengl};
+use crate::args::{FigureName, Size};
 
 /// 1 to 1000 spheres over a plane, under one point light.
 pub(super) fn figure(size: Size) -> Figure {

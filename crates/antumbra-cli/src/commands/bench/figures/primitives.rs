@@ -3,8 +3,8 @@
 //! for whatever other techniques there are, beside them.
 
 use super::text::SceneText;
-use super::{Axis, Figure, FigureName, Place};
-use crate::args::Size;
+use super::{Axis, Figure, Place};
+use crate::args::{FigureName, Size};
 use crate::technique::Technique;
 
 /// What is drawn: its name, and shape and pose in the scene file.

@@ -1,8 +1,8 @@
 //! How techniques scale with the number of pixels.
 
 use super::text::SceneText;
-use super::{Axis, Figure, FigureName, Place, with_opengl};
-use crate::args::{MAX_SIDE, Size};
+use super::{Axis, Figure, Place, with_opengl};
+use crate::args::{FigureName, MAX_SIDE, Size};
 
 const SPHERES: u32 = 8;
 const LIGHTS: u32 = 4;

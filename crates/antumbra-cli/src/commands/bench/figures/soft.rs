@@ -7,8 +7,8 @@ use antumbra::{Soft, Technique as Gl};
 
 use super::primitives::KINDS;
 use super::text::SceneText;
-use super::{Axis, Figure, FigureName, Place};
-use crate::args::Size;
+use super::{Axis, Figure, Place};
+use crate::args::{FigureName, Size};
 use crate::technique::Technique;
 
 const COMPONENTS: [u32; 6] = [1, 3, 5, 9, 16, 64];
