@@ -101,7 +101,7 @@ impl Technique {
     pub(crate) fn components(&self) -> Option<u32> {
         match self {
             Self::Gl(_, Soft::Samples { count, .. }) => Some(*count),
-            Self::Gl(technique, Soft::Native) => technique.components(),
+            Self::Gl(technique, _) => technique.components(),
             Self::Raytraced => None,
         }
     }

@@ -29,6 +29,10 @@ fn every_figure() {
     // 5 primitives with the ray tracer beside, 7 numbers of lights and occluders, 4 of pixels; 4 primitives under an
     // area light with two techniques, and two more with 6 numbers of points.
     assert_eq!(rows.len() + refused.len(), 5 * (gl + 1) + 18 * gl + 4 * 14, "each technique on each scene");
+    for technique in antumbra::Technique::NAMES {
+        let measured = rows.iter().filter(|row| row["technique"] == *technique).count();
+        assert!(measured >= 4, "{technique} is measured {measured} times");
+    }
     for row in rows {
         let number = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key} is a number in {row}"));
         assert!(0.0 < number("median_ms") && number("median_ms") <= number("p95_ms"), "{row}");
@@ -104,8 +108,9 @@ fn soft_shadows_have_an_error() {
             assert_eq!(of(painted)["components"], count, "points of the light");
         }
         assert!(of("analytic")["components"].is_null(), "the light as it is");
-        // The bound of the closed forms against the ray tracer, and what black and white alone leave of a smooth edge.
-        assert!(error("analytic") < 0.004, "{scene}: {}", error("analytic"));
+        // The bound of the closed forms against the ray tracer, and what black and white alone leave of a smooth edge. At 512
+        // pixels across it is .0011 to .0013.
+        assert!(error("analytic") < 0.0025, "{scene}: {}", error("analytic"));
         let (one, many) = (error("analytic+samples:1"), error("analytic+samples:64"));
         assert!(one > 0.15 && many < 0.25 * one, "{scene}: more points come nearer: {one} to {many}");
         assert!(error("composite:components=1") > 0.15, "{scene}: one component casts a hard shadow");

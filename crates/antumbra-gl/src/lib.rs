@@ -14,17 +14,19 @@ pub mod technique;
 
 #[cfg(test)]
 mod program_tests;
+#[cfg(test)]
+mod twins;
 
+pub use antumbra_math::PlacingError;
 pub use gl::{Caps, Tier};
 pub use input::{
-    Allowed, Area, Camera, Choice, Component, DepthFormat, Encoding, Error, Frame, FrameFault, Image, Light,
-    LightFault, MeshOccluder, NO_SHADOW, NormalSpace, Normals, Occluder, OptionError, OptionInfo, Part,
-    Pattern, Reason, Receiver, ReceiverShape, Refusal, Resource, Scenery, Soft, Surface, Unsupported,
-    components,
+    Allowed, Area, Camera, Choice, Color, Component, Depth, DepthFormat, Encoding, Error, Falloff, Frame,
+    FrameFault, Framebuffer, HostState, Image, Light, LightFault, Matrix, MeshOccluder, NO_SHADOW,
+    NormalSpace, Normals, Occluder, OptionError, OptionInfo, Part, Pattern, Reason, Receiver, ReceiverShape,
+    Refusal, Resource, Scenery, Soft, Surface, Texture, Unsupported, Vector, components,
 };
 pub use masks::{
     BATCH_LIGHTS, DepthMap, DepthScale, IRRADIANCE_GLSL, MapFace, MaskBatch, ShaderLight, Stats,
-    light_points, sample_weight,
 };
-pub use renderer::Renderer;
+pub use renderer::{MaskBatches, Renderer};
 pub use technique::Technique;

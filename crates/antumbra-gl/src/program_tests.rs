@@ -1,7 +1,7 @@
 //! Every permutation of every program, by the driver and by the reference compiler.
 
 use crate::gl::{Program, ProgramSource, Variant};
-use crate::masks::{OVERLAY_PROGRAMS, SAMPLE_PROGRAMS};
+use crate::masks::{RATIO_PROGRAM, SAMPLE_PROGRAMS, SUM_PROGRAMS};
 use crate::{Caps, Technique};
 use antumbra_host::{Api, TestContext};
 use glow::HasContext;
@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 /// The overlay's programs, those that sample lights, and every technique's.
 fn programs() -> Vec<&'static ProgramSource> {
     let techniques = Technique::all().flat_map(|technique| technique.programs());
-    OVERLAY_PROGRAMS.iter().chain(SAMPLE_PROGRAMS).chain(techniques).collect()
+    SUM_PROGRAMS.iter().chain(RATIO_PROGRAM).chain(SAMPLE_PROGRAMS).chain(techniques).collect()
 }
 
 fn required() -> bool {

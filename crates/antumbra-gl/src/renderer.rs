@@ -1,16 +1,24 @@
 //! The renderer: a guest in the host's OpenGL.
 
+#[cfg(not(target_arch = "wasm32"))]
+mod attachment;
+mod batches;
 mod depth_map;
 mod drawing;
 mod overlay;
 mod plan;
+mod surface;
 
-use crate::gl::{Caps, StateGuard, refuse_feedback};
-use crate::input::{Encoding, Error, Frame, Light, Soft, Surface};
-use crate::masks::{BATCH_LIGHTS, HostPicture, MaskBatch, Masks, Overlay, Points, Sampler, Stats};
+pub use batches::MaskBatches;
+
+#[cfg(not(target_arch = "wasm32"))]
+use crate::gl::load;
+use crate::gl::{Caps, DepthCopy, StateGuard};
+use crate::input::{Error, HostState, Light, Soft, Surface};
+use crate::masks::{Masks, Overlay, Points, Sampler, Stats};
 use crate::screen::TileGrid;
 use crate::technique::{Methods, Technique};
-use plan::{FramePlan, Manner, Programs, Purpose};
+use plan::{Manner, Programs};
 use std::sync::Arc;
 
 /// Adds shadows to what a host has drawn.
@@ -18,19 +26,24 @@ use std::sync::Arc;
 /// The first frame compiles the shaders for its kind of surface ([`Renderer::warm_up`] does it
 /// before); later frames compile nothing, and allocate nothing while the viewport stays and no more
 /// pairs of light and occluder come into sight than before. Memory does not depend on the number of
-/// lights. Every piece of OpenGL state is left as it was found. The context the renderer was made
-/// in must be current in every call and when it is dropped, which deletes its OpenGL objects.
+/// lights. Every piece of OpenGL state is left as it was found, or as [`HostState`] says.
+///
+/// The context the renderer was made in must be current in every call and when it is dropped, which deletes its OpenGL
+/// objects. Where that is so it may be sent from one thread to another.
 pub struct Renderer {
     gl: Arc<glow::Context>,
     manner: Manner,
+    host_state: HostState,
     methods: Methods,
     masks: Masks,
     overlay: Overlay,
+    /// The host's depth, where it is copied.
+    depth_copy: DepthCopy,
     /// Made when lights are first sampled.
     sampler: Option<Sampler>,
     /// What stands for the frame's lights where they are sampled.
     points: Points,
-    /// For [`FramePlan::new`].
+    /// Memory of the check.
     centers: Vec<Light>,
     /// The tiles that shadows touch in the frame.
     frame_tiles: TileGrid,
@@ -38,41 +51,75 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A renderer of the technique `analytic`; makes the OpenGL objects that do not depend on the frame.
+    /// A renderer of the technique `analytic` in the context that is current on this thread, for hosts with any OpenGL
+    /// bindings or none: `loader` finds OpenGL's functions by their names, as `eglGetProcAddress`, `glfwGetProcAddress` and
+    /// `SDL_GL_GetProcAddress` do; null stands for those that it does not find.
+    ///
+    /// # Errors
+    /// [`Error::NoContext`] for a loader that does not find the functions of OpenGL or finds them without a current
+    /// context, [`Error::TooOld`], [`Error::Resource`].
+    ///
+    /// # Safety
+    /// What `loader` returns are functions of those names of the current context's OpenGL, or null. The context is current
+    /// whenever the renderer is called and when it is dropped.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub unsafe fn from_loader(loader: impl FnMut(&str) -> *const std::ffi::c_void) -> Result<Self, Error> {
+        // SAFETY: the caller's.
+        Self::new(Arc::new(unsafe { load::context(loader)? }))
+    }
+
+    /// The same for a context that glow 0.17 knows.
     ///
     /// # Errors
     /// [`Error::TooOld`], [`Error::Resource`].
     pub fn new(gl: Arc<glow::Context>) -> Result<Self, Error> {
         let caps = Caps::query(&gl)?;
+        let host_state = HostState::default();
+        let (manner, mut methods) =
+            (Manner { technique: Technique::default(), soft: Soft::Native, caps }, Methods::default());
         let overlay = {
-            let _guard = StateGuard::new(&gl, caps);
-            // SAFETY: the guard is alive.
-            unsafe { Overlay::new(&gl)? }
+            let _guard = StateGuard::new(&gl, caps, host_state);
+            // SAFETY: the guard is alive; what was made is deleted if the next cannot be.
+            unsafe {
+                let mut overlay = Overlay::new(&gl)?;
+                if let Err(error) = methods.choose(&manner.technique, &gl, &caps) {
+                    overlay.delete(&gl);
+                    return Err(error);
+                }
+                overlay
+            }
         };
-        let mut renderer = Self {
+        Ok(Self {
             gl,
-            manner: Manner { technique: Technique::default(), soft: Soft::Native, caps },
-            methods: Methods::default(),
+            manner,
+            host_state,
+            methods,
             masks: Masks::default(),
             overlay,
+            depth_copy: DepthCopy::default(),
             sampler: None,
             points: Points::default(),
             centers: Vec::new(),
             frame_tiles: TileGrid::default(),
             stats: Stats::default(),
-        };
-        renderer.set_technique(Technique::default())?;
-        Ok(renderer)
+        })
     }
 
     /// Finds shadows in another way from the next frame on. What earlier techniques have made and compiled is
     /// kept, so that changing back is free.
     ///
+    /// ```no_run
+    /// # fn f(mut shadows: antumbra_gl::Renderer) -> Result<(), antumbra_gl::Error> {
+    /// use antumbra_gl::{Technique, technique::analytic::Quality};
+    /// shadows.set_technique(Technique::analytic().quality(Quality::Exact))?;
+    /// # Ok(()) }
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Resource`]; the technique is then the one it was.
     pub fn set_technique(&mut self, technique: impl Into<Technique>) -> Result<(), Error> {
         let technique = technique.into();
-        let _guard = StateGuard::new(&self.gl, self.manner.caps);
+        let _guard = StateGuard::new(&self.gl, self.manner.caps, self.host_state);
         // SAFETY: the guard is alive.
         unsafe { self.methods.choose(&technique, &self.gl, &self.manner.caps)? };
         self.manner.technique = technique;
@@ -94,6 +141,16 @@ impl Renderer {
         self.manner.soft
     }
 
+    /// Does something else about the host's OpenGL state from the next call on.
+    pub fn set_host_state(&mut self, host_state: HostState) {
+        self.host_state = host_state;
+    }
+
+    /// What is done about the host's OpenGL state.
+    pub fn host_state(&self) -> HostState {
+        self.host_state
+    }
+
     /// Compiles the shaders for surfaces and lights like these, unless it was done: the first frame with
     /// such a surface, and such kinds of light, does it otherwise.
     ///
@@ -102,7 +159,7 @@ impl Renderer {
     pub fn warm_up(&mut self, surface: &Surface, lights: &[Light]) -> Result<(), Error> {
         plan::check_surface(surface, &self.manner.caps)?;
         let gl = self.gl.clone();
-        let _guard = StateGuard::new(&gl, self.manner.caps);
+        let _guard = StateGuard::new(&gl, self.manner.caps, self.host_state);
         for paints in [true, false] {
             let sampled = plan::sampling(&self.manner, lights, paints).is_some();
             // SAFETY: the guard is alive.
@@ -120,63 +177,6 @@ impl Renderer {
     pub fn stats(&self) -> Stats {
         self.stats
     }
-
-    /// Multiplies the pixels of the bound draw framebuffer's first colour buffer by
-    /// (Σ V E + ambient) / (Σ E + ambient): what a diffuse host would have drawn with shadows; or, with a
-    /// technique that paints shadows, paints them. The framebuffer's other colour buffers are left alone.
-    ///
-    /// # Errors
-    /// [`Error::BadFrame`], [`Error::BadLight`], [`Error::Refused`], [`Error::Unsupported`],
-    /// [`Error::SurfaceAttached`], [`Error::Resource`]. The picture is then untouched.
-    pub fn overlay(&mut self, frame: &Frame<'_>, encoding: Encoding) -> Result<(), Error> {
-        encoding.check().map_err(Error::BadFrame)?;
-        let plan = FramePlan::new(frame, Purpose::Overlay, &self.manner, &mut self.centers)?;
-        let gl = self.gl.clone();
-        let guard = StateGuard::new(&gl, self.manner.caps);
-        let host = HostPicture { framebuffer: guard.host_framebuffer(), encoding };
-        // SAFETY: the guard is alive, the frame was checked, and whoever calls this vouches for
-        // the textures of the surface.
-        unsafe {
-            refuse_feedback(&gl, host.framebuffer, &frame.surface, self.manner.caps)?;
-            self.prepare(&plan)?;
-            match frame.lights {
-                _ if plan.paints => self.paint(&plan, host),
-                lights if lights.len() <= BATCH_LIGHTS => self.overlay_batch(&plan, host),
-                _ => self.overlay_batches(&plan, host),
-            }
-        }
-    }
-
-    /// Fills visibility textures and hands them to `shade`, [`BATCH_LIGHTS`] lights at a time,
-    /// once for each batch. In `shade` the OpenGL state is the host's own. The next batch, and the
-    /// next call of the renderer, overwrite the textures: with one batch they may be used until then,
-    /// with several only inside `shade`.
-    ///
-    /// # Errors
-    /// [`Error::BadFrame`], [`Error::BadLight`], [`Error::Refused`], [`Error::Unsupported`],
-    /// [`Error::Resource`].
-    pub fn masks(&mut self, frame: &Frame<'_>, mut shade: impl FnMut(&MaskBatch)) -> Result<(), Error> {
-        let plan = FramePlan::new(frame, Purpose::Masks, &self.manner, &mut self.centers)?;
-        let gl = self.gl.clone();
-        for (i, lights) in frame.lights.chunks(BATCH_LIGHTS).enumerate() {
-            let guard = StateGuard::new(&gl, self.manner.caps);
-            // SAFETY: the guard is alive, the frame was checked, and whoever calls this vouches
-            // for the textures of the surface.
-            unsafe {
-                if i == 0 {
-                    self.prepare(&plan)?;
-                }
-                self.draw_visibility(&plan, i * BATCH_LIGHTS, lights)?;
-            }
-            drop(guard);
-            shade(&MaskBatch {
-                first_light: i * BATCH_LIGHTS,
-                lights: lights.len(),
-                textures: self.masks.targets().map(|target| target.texture),
-            });
-        }
-        Ok(())
-    }
 }
 
 impl Drop for Renderer {
@@ -187,6 +187,7 @@ impl Drop for Renderer {
         unsafe {
             self.methods.delete(gl);
             self.overlay.delete(gl);
+            self.depth_copy.delete(gl);
             if let Some(sampler) = &mut self.sampler {
                 sampler.delete(gl);
             }
@@ -194,3 +195,10 @@ impl Drop for Renderer {
         }
     }
 }
+
+/// Hosts keep a renderer where threads may meet: in a mutex that a callback locks.
+#[cfg(not(target_arch = "wasm32"))]
+const _: () = {
+    const fn is_send<T: Send>() {}
+    is_send::<Renderer>();
+};

@@ -7,6 +7,7 @@ use glutin::api::egl::display::Display;
 use glutin::config::{ConfigSurfaceTypes, ConfigTemplateBuilder};
 use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, PossiblyCurrentContext, Version};
 use glutin::display::GlDisplay;
+use std::ffi::{CStr, c_void};
 use std::sync::Arc;
 
 /// The kind of context.
@@ -22,7 +23,7 @@ pub enum Api {
 pub struct HeadlessContext {
     gl: Arc<glow::Context>,
     _context: PossiblyCurrentContext,
-    _display: Option<Display>,
+    display: Display,
 }
 
 /// What a driver says of itself.
@@ -86,17 +87,18 @@ impl HeadlessContext {
             let config = display.find_configs(template)?.next().ok_or_else(no_config)?;
             let context = display.create_context(&config, &attributes)?.make_current_surfaceless()?;
             let gl = glow::Context::from_loader_function_cstr(|name| display.get_proc_address(name));
-            Ok(Self {
-                gl: Arc::new(gl),
-                _context: PossiblyCurrentContext::Egl(context),
-                _display: Some(display),
-            })
+            Ok(Self { gl: Arc::new(gl), _context: PossiblyCurrentContext::Egl(context), display })
         }
     }
 
     /// The context's functions.
     pub fn gl(&self) -> &Arc<glow::Context> {
         &self.gl
+    }
+
+    /// A function of OpenGL, as hosts with bindings of their own load them; null for one that there is not.
+    pub fn get_proc_address(&self, name: &CStr) -> *const c_void {
+        self.display.get_proc_address(name)
     }
 
     /// What the driver says of itself.

@@ -23,12 +23,11 @@ pub struct Described {
 impl Described {
     /// What techniques are asked to do.
     pub fn scenery(&self) -> Scenery<'_> {
-        Scenery {
-            lights: &self.lights,
-            occluders: &self.occluders,
-            meshes: &self.meshes,
-            receivers: &self.receivers,
-        }
+        Scenery::default()
+            .lights(&self.lights)
+            .occluders(&self.occluders)
+            .meshes(&self.meshes)
+            .receivers(&self.receivers)
     }
 }
 
@@ -58,7 +57,7 @@ pub(crate) fn describe_with(
                 Some(Shape::Rectangle(rectangle)) => Some(ReceiverShape::Rectangle(rectangle)),
                 _ => None,
             };
-            described.receivers.extend(flat.map(|shape| Receiver { shape, id }));
+            described.receivers.extend(flat.map(|shape| Receiver::new(shape).with_id(id)));
         }
         if !primitive.casts_shadow {
             continue;
@@ -73,7 +72,7 @@ pub(crate) fn describe_with(
         })?;
         let pose = &primitive.pose;
         let model = DMat4::from_rotation_translation(pose.rotation, pose.translation);
-        described.meshes.push(MeshOccluder { mesh, model, id });
+        described.meshes.push(MeshOccluder::new(mesh, model).with_id(id));
     }
     Ok(described)
 }

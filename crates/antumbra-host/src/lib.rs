@@ -11,6 +11,7 @@ mod describe;
 #[cfg(test)]
 mod drawing_tests;
 mod error;
+mod link;
 mod meshes;
 mod objection;
 mod picture;
@@ -22,15 +23,18 @@ mod surface;
 mod targets;
 mod tessellate;
 mod test_context;
+mod test_display;
 mod timer;
 
 pub use context::{Api, ContextInfo, HeadlessContext};
 pub use describe::{Described, describe, light};
 pub use error::HostError;
+pub use link::link_program;
 pub use objection::objection;
 pub use picture::{RenderOptions, Rendered};
 pub use setting::Setting;
 pub use stage::{Buffers, Picture, Stage};
 pub use targets::ColorFormat;
 pub use test_context::TestContext;
+pub use test_display::TestDisplay;
 pub use timer::FrameTimer;

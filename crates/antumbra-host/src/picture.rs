@@ -7,8 +7,7 @@ use crate::state;
 use crate::targets::ColorFormat;
 use antumbra::glam::{DVec3, Vec3};
 use antumbra::math::Light as Place;
-use antumbra::math::blocking::half_plane_coverage;
-use antumbra::{BATCH_LIGHTS, ShaderLight, Soft, Technique};
+use antumbra::{BATCH_LIGHTS, MaskBatch, ShaderLight, Soft, Technique};
 use antumbra_scene::Scene;
 use glow::{HasContext, PixelPackData};
 
@@ -93,7 +92,7 @@ impl Stage {
         // Visibility says whether the way to the light is free, also outside a spot's cone.
         let lights: Vec<_> = setting.described.lights.iter().map(everywhere).collect();
         let Some(frame) = self.frame(setting) else { return Ok(Vec::new()) };
-        let frame = antumbra::Frame { lights: &lights, ..frame };
+        let frame = frame.lights(&lights);
         let gl = self.gl.clone();
         let surface = self.read_surface(setting)?;
         let [_, _, width, height] = frame.viewport;
@@ -101,8 +100,8 @@ impl Stage {
         let soft = lights.iter().any(|light| light.area != antumbra::Area::None);
         // SAFETY: a fresh framebuffer, deleted below.
         let framebuffer = unsafe { gl.create_framebuffer() }.map_err(HostError::Driver)?;
-        let result = self.shadows.masks(&frame, |batch| {
-            for (t, &texture) in batch.textures.iter().enumerate() {
+        let mut keep = |batch: &MaskBatch| {
+            for (t, texture) in batch.textures.iter().enumerate() {
                 // SAFETY: reads a texture that antumbra just filled into memory of its size.
                 let pixels: Vec<[f32; 4]> = unsafe {
                     gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(framebuffer));
@@ -110,7 +109,7 @@ impl Stage {
                         glow::READ_FRAMEBUFFER,
                         glow::COLOR_ATTACHMENT0,
                         glow::TEXTURE_2D,
-                        Some(texture),
+                        Some(texture.glow()),
                         0,
                     );
                     if soft {
@@ -131,6 +130,12 @@ impl Stage {
                         .collect();
                 }
             }
+        };
+        let result = self.shadows.masks(&frame).and_then(|mut batches| {
+            while let Some(batch) = batches.next()? {
+                keep(&batch);
+            }
+            Ok(())
         });
         // SAFETY: made above.
         unsafe { gl.delete_framebuffer(framebuffer) };
@@ -185,7 +190,7 @@ fn everywhere(light: &antumbra::Light) -> antumbra::Light {
         Place::Spot { position, .. } => Place::Point { position },
         place => place,
     };
-    antumbra::Light { place, intensity: Vec3::ONE, ..*light }
+    light.with_place(place).with_intensity(Vec3::ONE)
 }
 
 /// A cosine that positions and normals in float32 do not tell from zero: a light in the plane of a
@@ -203,7 +208,7 @@ pub(crate) struct SurfaceCopy {
 impl SurfaceCopy {
     /// How much of each pixel faces the light, antialiased inside each primitive.
     fn facing(&self, light: &antumbra::Light, setting: &Setting) -> Vec<f32> {
-        let light = ShaderLight::new(light, &setting.camera.view);
+        let light = ShaderLight::new(light, setting.camera.view);
         if light.color.w > 0.0 || light.right.w > 0.0 {
             // A light with an area leaves by degrees; visibility is what arrives of what could.
             let arrives = |i: usize| light.irradiance(self.positions[i], self.normals[i]) != Vec3::ZERO;
@@ -235,10 +240,24 @@ impl SurfaceCopy {
                     return if value > 0.0 { 1.0 } else { 0.0 };
                 }
                 let inside = x > 0 && x + 1 < self.width;
-                half_plane_coverage(value, slope(i, 1, inside), slope(i, self.width, true))
+                share_above(value, slope(i, 1, inside), slope(i, self.width, true))
             })
             .collect()
     }
+}
+
+/// The share of a pixel, on a grid of points, where `value + u·slope_x + v·slope_y` is positive: counted, so that what
+/// measures has nothing in common with what is measured.
+fn share_above(value: f32, slope_x: f32, slope_y: f32) -> f32 {
+    // Odd: the middle is a point, so that just over half is more than half.
+    const SIDE: i32 = 17;
+    if value.abs() > (slope_x.abs() + slope_y.abs()) * 0.5 {
+        return if value > 0.0 { 1.0 } else { 0.0 };
+    }
+    let at = |k: i32| (k as f32 + 0.5) / SIDE as f32 - 0.5;
+    let rows = (0..SIDE).map(|row| value + at(row) * slope_y);
+    let above = rows.map(|row| (0..SIDE).filter(|column| row + at(*column) * slope_x > 0.0).count());
+    above.sum::<usize>() as f32 / (SIDE * SIDE) as f32
 }
 
 /// # Safety

@@ -1,6 +1,8 @@
 //! The host's shader programs.
 
 use crate::HostError;
+use crate::link::link_program;
+use antumbra::{Area, Falloff, Light};
 use glow::HasContext;
 
 /// Lights in one pass: what the smallest uniform block that OpenGL allows can hold.
@@ -60,9 +62,16 @@ uniforms!(
     light_count,
 );
 
-/// The areas that a scene's lights have; what is there is paid for.
+/// What a scene's lights take to shade; what is there is paid for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Areas {
+pub(crate) struct Shading {
+    areas: Areas,
+    /// Whether some weaken in another way than with the square of the distance.
+    falloff: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Areas {
     /// None.
     None,
     /// Some are balls.
@@ -71,19 +80,38 @@ pub(crate) enum Areas {
     All,
 }
 
-impl Areas {
+impl Shading {
     /// How many of these there are.
-    pub(crate) const COUNT: usize = 3;
+    pub(crate) const COUNT: usize = 6;
 
-    /// Those of a scene.
-    pub(crate) fn of(lights: &[antumbra::Light]) -> Self {
-        use antumbra::Area;
-        let flat = |l: &antumbra::Light| matches!(l.area, Area::Disc { .. } | Area::Rectangle { .. });
-        match lights.iter().any(flat) {
-            true => Self::All,
-            false if lights.iter().any(|l| l.area != Area::None) => Self::Balls,
-            false => Self::None,
-        }
+    /// That of some lights.
+    pub(crate) fn of(lights: &[Light]) -> Self {
+        let flat = |l: &Light| matches!(l.area, Area::Disc { .. } | Area::Rectangle { .. });
+        let areas = match lights.iter().any(flat) {
+            true => Areas::All,
+            false if lights.iter().any(|l| l.area != Area::None) => Areas::Balls,
+            false => Areas::None,
+        };
+        let falloff = |l: &Light| l.falloff != Falloff::PHYSICAL || l.range.is_finite();
+        Self { areas, falloff: lights.iter().any(falloff) }
+    }
+
+    /// Below [`Self::COUNT`].
+    pub(crate) fn index(self) -> usize {
+        2 * self.areas as usize + usize::from(self.falloff)
+    }
+
+    /// What comes before the host's own shader. Points that weaken with the square of the distance it shades itself;
+    /// others as antumbra takes them to be.
+    fn source(self) -> String {
+        let areas = match self.areas {
+            Areas::None if !self.falloff => return String::new(),
+            Areas::None => "",
+            Areas::Balls => "#define ANTUMBRA_BALL_LIGHTS\n",
+            Areas::All => "#define ANTUMBRA_FLAT_LIGHTS\n",
+        };
+        let falloff = if self.falloff { "#define ANTUMBRA_FALLOFF\n" } else { "" };
+        format!("#define ANY_LIGHTS\n{areas}{falloff}{}", antumbra::IRRADIANCE_GLSL)
     }
 }
 
@@ -93,14 +121,12 @@ impl Program {
         gl: &glow::Context,
         kind: Kind,
         multisample: bool,
-        areas: Areas,
+        shading: Shading,
     ) -> Result<Self, HostError> {
-        let header = match (gl.version().is_embedded, multisample) {
-            (true, _) => "#version 300 es\nprecision highp float;\nprecision highp int;\n",
-            (false, false) => "#version 330 core\n",
-            (false, true) => {
-                "#version 330 core\n#extension GL_ARB_sample_shading : require\n#define MULTISAMPLE\n"
-            }
+        let extension = if multisample {
+            "#extension GL_ARB_sample_shading : require\n#define MULTISAMPLE\n"
+        } else {
+            ""
         };
         let (vertex, fragment) = match kind {
             Kind::Cast => {
@@ -110,39 +136,14 @@ impl Program {
                 (include_str!("shaders/triangles.vert.glsl"), include_str!("shaders/triangles.frag.glsl"))
             }
         };
-        // Lights with an area are shaded as antumbra takes them to be.
-        let shading = match areas {
-            Areas::None => [""; 2],
-            Areas::Balls => ["#define BALL_LIGHTS\n", antumbra::IRRADIANCE_GLSL],
-            Areas::All => ["#define FLAT_LIGHTS\n", antumbra::IRRADIANCE_GLSL],
-        };
-        let lit = format!("{}{}", shading.concat(), include_str!("shaders/lit.glsl"));
-        let stages = [(glow::VERTEX_SHADER, "", vertex), (glow::FRAGMENT_SHADER, lit.as_str(), fragment)];
-        // SAFETY: objects are made, used and deleted in this context.
+        let lit = format!("{}{}", shading.source(), include_str!("shaders/lit.glsl"));
+        let raw = link_program(
+            gl,
+            &format!("{extension}{vertex}"),
+            &format!("{extension}#define MAX_LIGHTS {MAX_LIGHTS}\n{lit}{fragment}"),
+        )?;
+        // SAFETY: linked above.
         unsafe {
-            let raw = gl.create_program().map_err(HostError::Driver)?;
-            for (stage, shared, source) in stages {
-                let shader = gl.create_shader(stage).map_err(HostError::Driver)?;
-                gl.shader_source(
-                    shader,
-                    &format!("{header}#define MAX_LIGHTS {MAX_LIGHTS}\n{shared}{source}"),
-                );
-                gl.compile_shader(shader);
-                let failed = !gl.get_shader_compile_status(shader);
-                let log = gl.get_shader_info_log(shader);
-                gl.attach_shader(raw, shader);
-                gl.delete_shader(shader);
-                if failed {
-                    gl.delete_program(raw);
-                    return Err(HostError::Driver(log));
-                }
-            }
-            gl.link_program(raw);
-            if !gl.get_program_link_status(raw) {
-                let log = gl.get_program_info_log(raw);
-                gl.delete_program(raw);
-                return Err(HostError::Driver(log));
-            }
             if let Some(block) = gl.get_uniform_block_index(raw, "Lights") {
                 gl.uniform_block_binding(raw, block, 0);
             }

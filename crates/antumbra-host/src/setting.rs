@@ -50,7 +50,7 @@ impl Setting {
             described,
             components: Vec::new(),
             names: scene.objects.iter().map(|object| object.name.clone()).collect(),
-            camera: Camera { view: scene.camera.view(), projection },
+            camera: Camera::new(scene.camera.view(), projection),
             background: scene.image.background.as_vec3(),
             ambient: scene.ambient.as_vec3() * PI,
             near,

@@ -4,13 +4,16 @@ use crate::HostError;
 use crate::buffers::Buffers as TriangleBuffers;
 use crate::cast::Cast;
 use crate::meshes::Meshes;
-use crate::program::{Areas, Kind, MAX_LIGHTS, Program};
+use crate::program::{Kind, MAX_LIGHTS, Program, Shading};
 use crate::setting::Setting;
 use crate::state;
 use crate::targets::{ColorFormat, Targets};
 use antumbra::DepthMap;
 use antumbra::glam::{DMat4, DVec3, Mat3, Vec3};
-use antumbra::{DepthFormat, Frame, NO_SHADOW, NormalSpace, Normals, ShaderLight, Soft, Surface, Technique};
+use antumbra::{
+    DepthFormat, Encoding, Frame, Framebuffer, NO_SHADOW, NormalSpace, Normals, ShaderLight, Soft, Surface,
+    Technique, Texture,
+};
 use antumbra_scene::{Primitive, Scene};
 use glow::HasContext;
 use std::f32::consts::PI;
@@ -20,8 +23,8 @@ use std::sync::Arc;
 pub struct Stage {
     pub(crate) gl: Arc<glow::Context>,
     pub(crate) shadows: antumbra::Renderer,
-    /// Without and with many samples a pixel, without areas, with balls, with flat lights; compiled when they are first used.
-    programs: [Option<[Program; 2]>; 2 * Areas::COUNT],
+    /// Without and with many samples a pixel, of each kind of shading; compiled when they are first used.
+    programs: [Option<[Program; 2]>; 2 * Shading::COUNT],
     meshes: Meshes,
     triangles: TriangleBuffers,
     vertex_array: glow::VertexArray,
@@ -67,7 +70,7 @@ impl Stage {
             let size = MAX_LIGHTS * size_of::<ShaderLight>();
             gl.buffer_data_size(glow::UNIFORM_BUFFER, size as i32, glow::DYNAMIC_DRAW);
             Ok(Self {
-                programs: [const { None }; 2 * Areas::COUNT],
+                programs: [const { None }; 2 * Shading::COUNT],
                 meshes: Meshes::default(),
                 triangles: TriangleBuffers::default(),
                 vertex_array: gl.create_vertex_array().map_err(HostError::Driver)?,
@@ -131,10 +134,10 @@ impl Stage {
         self.triangles.prepare(&self.gl, setting.moment.primitives.iter().map(|p| &p.shape))?;
         let gl = &self.gl;
         let Some(targets) = &self.targets else { return Ok(()) };
-        let areas = Areas::of(&setting.described.lights);
-        let which = usize::from(samples > 1) * Areas::COUNT + areas as usize;
+        let shading = Shading::of(&setting.described.lights);
+        let which = usize::from(samples > 1) * Shading::COUNT + shading.index();
         if self.programs[which].is_none() {
-            let program = |kind| Program::new(gl, kind, samples > 1, areas);
+            let program = |kind| Program::new(gl, kind, samples > 1, shading);
             self.programs[which] = Some([program(Kind::Cast)?, program(Kind::Triangles)?]);
         }
         let Some(programs) = &self.programs[which] else { return Ok(()) };
@@ -167,8 +170,7 @@ impl Stage {
             for pass in 0..passes {
                 let some = &lights
                     [(pass * MAX_LIGHTS).min(lights.len())..((pass + 1) * MAX_LIGHTS).min(lights.len())];
-                let data: Vec<ShaderLight> =
-                    some.iter().map(|light| ShaderLight::new(light, &view)).collect();
+                let data: Vec<ShaderLight> = some.iter().map(|light| ShaderLight::new(light, view)).collect();
                 gl.bind_buffer(glow::UNIFORM_BUFFER, Some(self.lights));
                 gl.buffer_sub_data_u8_slice(glow::UNIFORM_BUFFER, 0, bytemuck::cast_slice(&data));
                 let ambient = if pass == 0 { setting.ambient } else { Vec3::ZERO };
@@ -262,31 +264,31 @@ impl Stage {
     /// The frame that antumbra shadows: what [`Self::draw`] has drawn last.
     pub(crate) fn frame<'a>(&self, setting: &'a Setting) -> Option<Frame<'a>> {
         let (width, height, ..) = self.targets.as_ref()?.key;
-        Some(Frame {
-            camera: setting.camera,
-            viewport: [0, 0, width, height],
-            surface: self.surface()?,
-            lights: &setting.described.lights,
-            occluders: &setting.described.occluders,
-            meshes: &setting.described.meshes,
-            receivers: &setting.described.receivers,
-            bounds: &setting.bounds,
-            components: &setting.components,
-            ambient: setting.ambient,
-        })
+        let frame = Frame::new(setting.camera, [0, 0, width, height], self.surface()?)
+            .lights(&setting.described.lights)
+            .occluders(&setting.described.occluders)
+            .meshes(&setting.described.meshes)
+            .receivers(&setting.described.receivers)
+            .bounds(&setting.bounds)
+            .components(&setting.components)
+            .ambient(setting.ambient);
+        Some(frame)
     }
 
     /// What [`Self::draw`] has drawn last, as antumbra reads it: depth, and normals and ids, which are those of the last
     /// draw with [`Buffers::All`]. `None` before anything was drawn. Good until the next draw.
     pub fn surface(&self) -> Option<Surface> {
         let targets = self.targets.as_ref()?;
-        Some(Surface {
-            depth: targets.depth,
-            samples: targets.key.2,
-            depth_format: DepthFormat { bits: 24, float: true, background: 0.0, zero_to_one: true },
-            normals: Some(Normals { texture: targets.normals, space: NormalSpace::View, biased: false }),
-            ids: Some(targets.ids),
-        })
+        // SAFETY: textures of this stage, which exist as long as its targets are these.
+        let [depth, normals, ids] = unsafe {
+            [targets.depth, targets.normals, targets.ids].map(|texture| Texture::from_glow(texture))
+        };
+        let surface = Surface::from_depth(depth)
+            .with_samples(targets.key.2)
+            .with_format(DepthFormat::float().reversed().zero_to_one())
+            .with_normals(Normals::new(normals, NormalSpace::View))
+            .with_ids(ids);
+        Some(surface)
     }
 
     /// The colour drawn last, with what shadows were added, one sample a pixel. `None` before anything was drawn. Good
@@ -331,9 +333,8 @@ impl Stage {
     pub fn add_shadows(&mut self, setting: &Setting) -> Result<(), HostError> {
         let (Some(frame), Some(targets)) = (self.frame(setting), &self.targets) else { return Ok(()) };
         // SAFETY: a framebuffer of this stage with the colour alone.
-        unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(targets.color_only)) };
-        self.shadows.overlay(&frame, antumbra::Encoding::Linear)?;
-        Ok(())
+        let color_only = unsafe { Framebuffer::from_glow(Some(targets.color_only)) };
+        Ok(self.shadows.overlay_to(&frame, Encoding::Linear, color_only)?)
     }
 
     /// Whether the driver has pictures of this size.

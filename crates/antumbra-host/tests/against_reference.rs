@@ -18,13 +18,13 @@ const SCENES: u64 = 40;
 #[test]
 fn random_scenes_are_classified_right() {
     let scenes = std::env::var("ANTUMBRA_SCENES").map_or(SCENES, |n| n.parse().expect("a number of scenes"));
-    classify(Api::Gl33, 0..scenes);
+    classify(Api::Gl33, 0..scenes, 0.0105);
 }
 
 /// The same with OpenGL ES 3.0, on scenes of its own.
 #[test]
 fn random_scenes_are_classified_right_by_opengl_es() {
-    classify(Api::Gles30, 1000..1008);
+    classify(Api::Gles30, 1000..1008, 0.0145);
 }
 
 /// What a comparison of all lights of a scene finds.
@@ -36,6 +36,9 @@ struct Found {
     squares: f64,
     /// Edge pixels.
     edges: usize,
+    /// Pixels outside the band: dark, and lit.
+    dark: usize,
+    lit: usize,
 }
 
 fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
@@ -66,6 +69,9 @@ fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
         found.wrong += wrong;
         found.squares += rms * rms * edges as f64;
         found.edges += edges;
+        let judged = || truth.visibility.iter().zip(&truth.band).filter(|(_, band)| !**band).map(|(v, _)| *v);
+        found.dark += judged().filter(|v| *v < 0.5).count();
+        found.lit += judged().filter(|v| *v >= 0.5).count();
     }
     found
 }
@@ -75,18 +81,26 @@ fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
 fn awkward_views_are_classified_right() {
     let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
-    let mut all = 0;
+    let mut all = Found::default();
     for (name, scene) in common::awkward::awkward_views(&[], "") {
-        let wrong = compare(&mut stage, &scene, &name).wrong;
+        let Found { wrong, dark, lit, .. } = compare(&mut stage, &scene, &name);
         if wrong > 0 {
             eprintln!("{name}: {wrong} pixels are wrong");
         }
-        all += wrong;
+        (all.wrong, all.dark, all.lit) = (all.wrong + wrong, all.dark + dark, all.lit + lit);
     }
-    assert_eq!(all, 0, "pixels on the wrong side outside the band");
+    assert_eq!(all.wrong, 0, "pixels on the wrong side outside the band");
+    assert!(
+        all.dark > 10_000 && all.lit > 10_000,
+        "there is much to judge: {} dark, {} lit",
+        all.dark,
+        all.lit
+    );
 }
 
-fn classify(api: Api, seeds: std::ops::Range<u64>) {
+/// `most`: root mean square error on edge pixels. A pixel that an edge cuts twice, at tips and between shadows, is known in
+/// part.
+fn classify(api: Api, seeds: std::ops::Range<u64>, most: f64) {
     let Some(context) = TestContext::new(api) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
     let scenes = seeds.end - seeds.start;
@@ -107,11 +121,11 @@ fn classify(api: Api, seeds: std::ops::Range<u64>) {
     );
     assert!(edges > 1000, "there are edges to look at");
     assert_eq!(wrong, 0, "pixels on the wrong side outside the band");
-    assert!(rms <= 0.03, "rms {rms} on edge pixels");
+    assert!(rms <= most, "rms {rms} on edge pixels");
 }
 
 /// Gallery scenes and random ones: the picture in linear light within 2/255 of the traced one, pixel
-/// by pixel, on 99.9 % of the pixels away from every edge of shadow, object or light cone. Beyond
+/// by pixel, on 99.94 % of the pixels away from every edge of shadow, object or light cone. Beyond
 /// half floats (relative 5e-4) there is no reason for a difference; the rest are pixels whose centre
 /// a float32 ray puts on the other side of a crease.
 #[test]
@@ -147,11 +161,11 @@ fn pictures_are_the_traced_ones() {
             let edges = common::band(&tracer, light, width, height);
             band.iter_mut().zip(edges).for_each(|(band, edge)| *band |= edge);
         }
-        let differs = |(a, b): (&[f32; 3], &[f32; 3])| (0..3).any(|c| (a[c] - b[c]).abs() > 2.0 / 255.0);
+        let differs = |(a, b): (&[f32; 3], &[f32; 3])| (0..3).any(|c| !((a[c] - b[c]).abs() <= 2.0 / 255.0));
         let compared = band.iter().filter(|b| !**b).count();
         let off = (0..band.len()).filter(|&i| !band[i] && differs((&drawn.image[i], &traced[i]))).count();
         eprintln!("scene {n}: {off} of {compared} pixels differ by more than 2/255");
         assert!(compared > band.len() / 10, "scene {n} is more than edges");
-        assert!(off * 1000 <= compared, "scene {n}: {off} of {compared} pixels differ");
+        assert!(off * 10_000 <= compared * 6, "scene {n}: {off} of {compared} pixels differ");
     }
 }

@@ -114,8 +114,7 @@ fn discs_and_triangles_are_the_traced_ones() {
     eprintln!("{scenes} scenes: {wrong} pixels wrong, rms {rms:.4} on {edges} edge pixels");
     assert!(edges > 1000, "there are edges to look at");
     assert_eq!(wrong, 0, "pixels on the wrong side outside the band");
-    // The bound that the exact technique has.
-    assert!(rms <= 0.03, "rms {rms} on edge pixels");
+    assert!(rms <= 0.016, "rms {rms} on edge pixels");
 }
 
 fn gallery(name: &str) -> Scene {

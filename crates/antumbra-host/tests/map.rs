@@ -137,7 +137,7 @@ fn meshes_are_right_without_acne() {
     let Some([small, large, unbiased]) = tally(meshes, techniques) else { return };
     assert!(large.outside[1] <= small.outside[1], "{large:?} after {small:?}");
     assert!(unbiased.dark > 100 * large.dark.max(1), "without bias there is acne: {unbiased:?}");
-    assert!(large.outside[1] * 10_000 <= large.all, "{large:?}");
+    assert!(large.outside[1] * 20_000 <= large.all, "{large:?}");
 }
 
 /// A table and a wall that cast, things that stand on them, a lamp aside and a low sun.
@@ -215,7 +215,8 @@ fn biases_trade_acne_against_gaps() {
     }
 }
 
-/// A wider filter smooths edges: nearer to the pixel's true area than stairs are, at a map so small that texels show.
+/// A wider filter smooths edges: nearer to the pixel's true area than stairs are, here where texels are about as large as
+/// pixels. The figures are those of docs/theory/map.md.
 #[test]
 fn filters_smooth_stairs() {
     let Some(context) = TestContext::new(Api::Gl33) else { return };
@@ -225,6 +226,8 @@ fn filters_smooth_stairs() {
     let tracer = Tracer::new(&scene, 0.0);
     let truths: Vec<_> =
         (0..scene.lights.len()).map(|light| common::truth(&scene, &tracer, light, width, height)).collect();
+    let edges: usize = truths.iter().map(|t| t.edge.iter().filter(|edge| **edge).count()).sum();
+    assert!(edges > 1000, "{edges} pixels with an edge");
     let mut error = |technique: &str| {
         let drawn = draw(&mut stage, &scene, technique);
         let squares: f64 =
@@ -236,6 +239,9 @@ fn filters_smooth_stairs() {
     let [none, bilinear, pcf] = ["map:filter=none", "map:radius=0.5", "map"].map(&mut error);
     assert!(bilinear < none && pcf < none, "filtered {bilinear} and {pcf}, not {none}");
     assert!(pcf < bilinear, "wider than bilinear: {pcf}, not {bilinear}");
+    for (found, published) in [(none, 0.24), (bilinear, 0.2), (pcf, 0.145)] {
+        assert!(found <= published, "{found}, not {published}");
+    }
 }
 
 /// PCSS knows one mean blocker: near the truth where there is one, and not far off where there are several. Over the
@@ -288,6 +294,6 @@ fn penumbrae_are_near_the_traced_ones() {
         let count = penumbra.iter().filter(|p| **p).count();
         eprintln!("{name}: rms {error:.3} over {count} pixels of penumbra");
         assert!(count > 500, "{name}: {count} pixels of penumbra");
-        assert!(error < 0.12, "{name}: {error}");
+        assert!(error < 0.07, "{name}: {error}");
     }
 }

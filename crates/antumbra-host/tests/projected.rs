@@ -3,9 +3,9 @@
 mod common;
 
 use antumbra::{Soft, Technique};
-use antumbra_host::{Api, RenderOptions, Stage, TestContext, describe};
+use antumbra_host::{Api, RenderOptions, Stage, TestContext};
 use antumbra_reference::{Ray, Sampling, Tracer};
-use antumbra_scene::Scene;
+use antumbra_scene::{LightKind, Scene, Shape};
 use antumbra_testkit::metrics::{edge_band, misclassified};
 use antumbra_testkit::random_mesh_scene::{RandomMeshScene, random_mesh_scene};
 use antumbra_testkit::random_scene::{RandomScene, random_scene};
@@ -58,6 +58,40 @@ fn has_edge(scene: &Scene, tracer: &Tracer, light: usize, [x, y]: [u32; 2]) -> b
     !(lit == 0 || lit == GRID * GRID)
 }
 
+/// Nothing falls on what is no receiver, where the light would arrive at all.
+fn assert_nothing_elsewhere(
+    scene: &Scene,
+    tracer: &Tracer,
+    light: usize,
+    test: &[f32],
+    receives: &dyn Fn(usize) -> bool,
+) {
+    let (width, height) = (scene.image.width, scene.image.height);
+    let seen = |x: u32, y: u32| {
+        let (origin, direction) = scene.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, width, height);
+        tracer.surface(&Ray::new(origin, direction))
+    };
+    for (i, _) in test.iter().enumerate().filter(|(i, value)| !receives(*i) && !(**value > 0.5)) {
+        let (x, y) = (i as u32 % width, i as u32 / width);
+        let Some(surface) = seen(x, y) else { continue };
+        let to_light = match tracer.lights()[light].kind {
+            LightKind::Directional { direction } => -direction,
+            _ => tracer.lights()[light].position - surface.point,
+        };
+        // Where the surface turns away from the light nothing arrives, and at its creases a pixel's neighbour may.
+        let faces = surface.normal.dot(to_light.normalize_or_zero()) > 0.1;
+        let goes_on = [(-1, 0), (1, 0), (0, -1), (0, 1)].into_iter().all(|(dx, dy)| {
+            let next = x.checked_add_signed(dx).zip(y.checked_add_signed(dy)).and_then(|(x, y)| seen(x, y));
+            next.is_some_and(|n| n.primitive == surface.primitive && n.normal.dot(surface.normal) > 0.9)
+        });
+        let arrives = tracer.unoccluded_irradiance(light, &surface, 1, 0) > 0.0;
+        assert!(
+            !(faces && goes_on && arrives),
+            "light {light}: a shadow at {x} {y}, where nothing receives one"
+        );
+    }
+}
+
 fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
     let (width, height) = (scene.image.width, scene.image.height);
     let technique = projected();
@@ -73,8 +107,11 @@ fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
     };
     let drawn = stage.render(scene, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
     let moment = scene.moment(0.0);
-    let described = describe(scene, &moment).expect("a right scene");
-    let receives = |id: Option<u32>| described.receivers.iter().any(|r| Some(r.id) == id.map(|id| id + 1));
+    let receives = |id: Option<u32>| {
+        id.map(|id| &moment.primitives[id as usize]).is_some_and(|primitive| {
+            primitive.receives_shadow && matches!(primitive.shape, Shape::Plane | Shape::Rectangle { .. })
+        })
+    };
     let tracer = Tracer::new(scene, 0.0);
     let ids = tracer.primitives_seen(width, height);
     let mut found = Found::default();
@@ -87,6 +124,7 @@ fn compare(stage: &mut Stage, scene: &Scene, name: &str) -> Found {
         for i in (0..band.len()).filter(|&i| (test[i] > 0.5) != (truth[i] > 0.5)) {
             band[i] = band[i] || has_edge(scene, &tracer, light, [i as u32 % width, i as u32 / width]);
         }
+        assert_nothing_elsewhere(scene, &tracer, light, test, &|pixel| receives(ids[pixel]));
         let wrong = misclassified(test, &truth, &band);
         if wrong > 0 {
             eprintln!("{name}, light {light} ({:?}): {wrong} pixels wrong", scene.lights[light].kind);

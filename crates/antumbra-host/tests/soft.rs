@@ -167,12 +167,12 @@ fn compare_all(light: &str, shapes: &[&str], scenes: u64, technique: Technique) 
     Some(found)
 }
 
-/// The closed form's own error is the quadrature's, 0.0006 (antumbra-math's tests); the bound is that of the project.
+/// The closed form's own error is the quadrature's, 0.0006 (antumbra-math's tests), and the truth's is 0.0008.
 #[test]
 fn a_ball_past_a_glowing_ball() {
     let Some(found) = compare_all("sphere", &["sphere"], 20 * more(), Technique::default()) else { return };
-    assert!(found.rms() <= 0.002, "rms {}", found.rms());
-    assert!(found.largest <= 0.01, "largest {}", found.largest);
+    assert!(found.rms() <= 0.0011, "rms {}", found.rms());
+    assert!(found.largest <= 0.006, "largest {}", found.largest);
 }
 
 #[test]
@@ -180,7 +180,10 @@ fn other_pairs() {
     for light in LIGHTS {
         for shape in ["sphere", "disc", "triangle", "rectangle", "cone"] {
             let Some(found) = compare_all(light, &[shape], 3 * more(), Technique::default()) else { return };
-            assert!(found.rms() <= 0.004, "{light}, {shape}: rms {}", found.rms());
+            assert!(found.rms() <= 0.0022, "{light}, {shape}: rms {}", found.rms());
+            // A triangle's corner on a large light is what eight strips know least.
+            let most = if shape == "triangle" { 0.03 } else { 0.009 };
+            assert!(found.largest <= most, "{light}, {shape}: largest {}", found.largest);
         }
     }
 }
@@ -193,9 +196,10 @@ fn several_occluders() {
     for light in LIGHTS {
         let exact = Technique::parse("analytic:quality=exact").expect("an option");
         let Some(found) = compare_all(light, &shapes, 2 * more(), exact) else { return };
-        assert!(found.rms() <= 0.004, "{light}: rms {}", found.rms());
+        assert!(found.rms() <= 0.0014, "{light}: rms {}", found.rms());
+        assert!(found.largest <= 0.018, "{light}: largest {}", found.largest);
         let Some(fast) = compare_all(light, &shapes, 2 * more(), Technique::default()) else { return };
         assert!(fast.rms() > found.rms(), "{light}: the product is not the union");
-        assert!(fast.rms() <= 0.1, "{light}: product, rms {}", fast.rms());
+        assert!(fast.rms() <= 0.035, "{light}: product, rms {}", fast.rms());
     }
 }

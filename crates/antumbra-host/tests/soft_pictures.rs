@@ -4,10 +4,8 @@
 mod common;
 
 use antumbra::glam::DVec3;
-use antumbra::math::Shape;
-use antumbra::math::soft::{AreaLight, Nodes, visibility};
-use antumbra::{Area, Soft, Technique};
-use antumbra_host::{Api, RenderOptions, Rendered, Stage, TestContext, describe};
+use antumbra::{Soft, Technique};
+use antumbra_host::{Api, RenderOptions, Rendered, Stage, TestContext};
 use antumbra_reference::{Ray, Surface, Tracer};
 use antumbra_scene::Scene;
 use exr::prelude::*;
@@ -70,8 +68,7 @@ fn coarse(fine: &[[f32; 3]], width: usize) -> Vec<[f32; 3]> {
 
 /// Three scenes whose shadows overlap, in linear light, against pictures with 2048 samples a pixel
 /// (`tools/make_references.py`): the root mean square difference of the pixels without a silhouette, relative to the
-/// root mean square of the picture, at most 0.01. The noise of the references is a tenth of that, which the test
-/// holds too.
+/// root mean square of the picture, at most 0.0016: no more than the noise of the references.
 #[test]
 fn mitsuba() {
     let Some(context) = TestContext::new(Api::Gl33) else { return };
@@ -115,8 +112,8 @@ fn mitsuba() {
             kept.len(),
             theirs.len()
         );
-        assert!(noise <= 0.003, "{name}: the reference's noise, {noise}");
-        assert!(exact <= 0.01, "{name}: relative RMSE {exact}");
+        assert!(noise <= 0.0017, "{name}: the reference's noise, {noise}");
+        assert!(exact <= 0.0016, "{name}: relative RMSE {exact}");
         assert!(fast > exact, "{name}: shadows overlap");
     }
 }
@@ -206,6 +203,7 @@ fn a_light_moved_a_little_changes_little() {
                 Some((on_grid, b - a, d - c))
             })
             .collect();
+        assert!(changes.iter().all(|c| c.1.is_finite() && c.2.is_finite()), "{}: numbers", about.0);
         let grid: Vec<_> = changes.iter().filter(|c| c.0).collect();
         let worst = changes.iter().map(|c| c.1.abs() - c.2.abs()).fold(f64::MIN, f64::max);
         let off = grid.iter().map(|c| (c.1 - c.2).abs()).fold(0.0, f64::max);
@@ -227,17 +225,6 @@ fn a_light_moved_a_little_changes_little() {
     }
 }
 
-fn area_light(light: &antumbra::Light, center: DVec3) -> AreaLight {
-    match light.area {
-        Area::Sphere { radius } => AreaLight::Sphere { center, radius },
-        Area::Disc { direction, radius } => AreaLight::Disc { center, direction, radius },
-        Area::Rectangle { direction, half_right, half_up } => {
-            AreaLight::Rectangle { center, direction, half_right, half_up }
-        }
-        Area::None => panic!("a light with an area"),
-    }
-}
-
 /// How far a pixel lies off the mean of its neighbours, beyond the truth, in units of the mask: half a second difference.
 ///
 /// Half floats round by 2^-12 at most, which is 2^-11 of half a second difference. The light that the horizon cuts leaves
@@ -245,30 +232,36 @@ fn area_light(light: &antumbra::Light, center: DVec3) -> AreaLight {
 /// changes from one pixel to the next of a narrow penumbra.
 const ROUNDING: f64 = 1.1 / 2048.0;
 
-/// Along rows across penumbrae the second difference of the drawn visibility is the true one (float64, 200 nodes) but for
+/// Along rows across penumbrae the second difference of the drawn visibility is the true one, traced, but for
 /// rounding, and but for the quadrature where a penumbra is only a few pixels wide: there within 2/255, and over
 /// all rows within a quarter of 1/255 at the root mean square.
 #[test]
 fn penumbrae_are_smooth() {
     let Some(context) = TestContext::new(Api::Gl33) else { return };
     let mut stage = Stage::new(context.gl()).expect("a stage");
-    let nodes = Nodes::<f64>::new(200);
     for about in SETUPS {
         let scene = setup(about);
         let drawn = &render(&mut stage, &scene, SIZE, Technique::default()).visibility[0];
-        let described = describe(&scene, &scene.moment(0.0)).expect("the scene has shapes alone");
-        let light = area_light(&described.lights[0], scene.lights[0].position);
-        let shapes: Vec<Shape> = described.occluders.iter().map(|o| o.shape).collect();
         let tracer = Tracer::new(&scene, 0.0);
+        let cut = about.0.ends_with("horizon");
+        // The rays' own second differences are a fifth of what is to be seen: 5e-5, and 3e-4 where more is allowed.
+        let (rays, step) = if cut { (1 << 18, 24) } else { (1 << 15, 8) };
         let found = (0..SIZE.1)
             .into_par_iter()
-            .step_by(4)
+            .step_by(step)
             .map(|row| {
+                // Only where the light is seen in part, or a neighbour sees it so.
+                let partial = |index: u32| (0.001..0.999).contains(&drawn[index as usize]);
                 let points: Vec<Option<(u32, f64, f64)>> = (0..SIZE.0)
                     .map(|x| {
                         let index = row * SIZE.0 + x;
-                        let surface = seen(&scene, &tracer, SIZE, index)?;
-                        let truth = visibility(&light, &shapes, surface.point, surface.normal, &nodes);
+                        let near = [index.saturating_sub(1), index, index + 1];
+                        let near = near.iter().any(|&i| i / SIZE.0 == row && partial(i));
+                        let surface = seen(&scene, &tracer, SIZE, index).filter(|_| near)?;
+                        if tracer.unoccluded_irradiance(0, &surface, 64, row) < DIM {
+                            return None; // any share of next to nothing is nothing to see
+                        }
+                        let truth = tracer.visibility_at(0, &surface, rays, row);
                         Some((surface.primitive, f64::from(drawn[index as usize]), truth))
                     })
                     .collect();
@@ -296,9 +289,9 @@ fn penumbrae_are_smooth() {
         println!(
             "{name}: {count} pixels off their neighbours by {rms:.5} (RMS), {worst:.5} at most; true bends up to {truth:.5}"
         );
-        assert!(count > 500.0, "{name}: rows that cross a penumbra");
+        assert!(count > 250.0, "{name}: rows that cross a penumbra");
         assert!(rms <= 0.25 / 255.0, "{name}: pixels are {rms} off their neighbours");
-        let bound = if name.ends_with("horizon") { ROUNDING } else { 2.0 / 255.0 };
+        let bound = if cut { ROUNDING } else { 2.0 / 255.0 };
         assert!(worst <= bound, "{name}: a pixel is {worst} off its neighbours");
     }
 }

@@ -216,8 +216,9 @@ fn what_was_drawn_is_there_to_be_shown() {
         assert!(darker > 500, "{samples} samples: {darker} bytes are darker with shadows");
         let surface = stage.surface().expect("it was drawn");
         assert_eq!(surface.samples, samples, "the surface's samples");
+        let antumbra::Depth::Texture(depth) = surface.depth else { panic!("a texture: {surface:?}") };
         // SAFETY: asks whether names are of textures.
-        let textures = unsafe { gl.is_texture(shadowed.texture) && gl.is_texture(surface.depth) };
+        let textures = unsafe { gl.is_texture(shadowed.texture) && gl.is_texture(depth.glow()) };
         assert!(textures, "{shadowed:?}, {surface:?} are textures");
     }
     // SAFETY: asks for the error flag.
@@ -306,7 +307,7 @@ fn components_move_the_penumbra() {
         bytes(gl, &stage.color().expect("it was drawn"))
     };
     let rim = draw(Vec::new());
-    let moved = draw(vec![Component { light: 0, offset: DVec3::new(-1.5, 0.0, 0.5) }]);
+    let moved = draw(vec![Component::new(0, DVec3::new(-1.5, 0.0, 0.5))]);
     assert!(rim.iter().zip(&moved).filter(|(a, b)| a != b).count() > 200, "the shadow is elsewhere");
     assert_eq!(draw(Vec::new()), rim, "and back");
 }

@@ -13,4 +13,4 @@ pub mod soft;
 pub use light::Light;
 pub use mesh::{MeshError, TriangleMesh};
 pub use plane_shadow::{PlaneFrame, PlaneShadow, ShadowKind};
-pub use shape::{Cone, Disc, Plane, Rectangle, Shape, Sphere, Triangle};
+pub use shape::{Cone, Disc, PlacingError, Plane, Rectangle, Shape, Sphere, Triangle};

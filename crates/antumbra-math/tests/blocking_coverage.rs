@@ -54,6 +54,7 @@ fn half_planes_are_exact() {
         let more = half_plane_coverage(value + random.decades(-9.0, 0.0) * slope.length(), slope.x, slope.y);
         assert!(more >= area - 1e-15, "{more} after {area} at {value} {slope}");
         let single = half_plane_coverage(value as f32, slope.x as f32, slope.y as f32);
+        assert!(single.is_finite(), "{value} {slope} in float32");
         worst_single = worst_single.max((f64::from(single) - truth).abs());
     }
     println!("farthest from the area: {worst:e}, in float32 {worst_single:e}");
@@ -136,6 +137,7 @@ fn footprints_are_the_change_of_what_is_seen() {
             [(footprint.dx, seen(h, 0.0), seen(-h, 0.0)), (footprint.dy, seen(0.0, h), seen(0.0, -h))]
         {
             let difference = (plus - minus) / (2.0 * h);
+            assert!(step.is_finite(), "{step}");
             worst = worst.max((step - difference).length() / difference.length());
         }
         let single = screen_footprint(
@@ -144,8 +146,10 @@ fn footprints_are_the_change_of_what_is_seen() {
             (pixel.size.x as f32, pixel.size.y as f32),
             true,
         );
-        let error = (single.dx.as_dvec3() - footprint.dx).length() / footprint.dx.length();
-        assert!(error < 1e-4, "float32, the facing at least 0.2 of the sight: {error:e}");
+        for (single, step) in [(single.dx, footprint.dx), (single.dy, footprint.dy)] {
+            let error = (single.as_dvec3() - step).length() / step.length();
+            assert!(error < 1e-4, "float32, the facing at least 0.2 of the sight: {error:e}");
+        }
     }
     println!("farthest from the differences: {worst:e}");
     // Central differences over a thousandth of a pixel: rounding (1e-15 of a distance of ten over a step of

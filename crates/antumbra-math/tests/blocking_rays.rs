@@ -157,6 +157,6 @@ fn a_small_far_ball_in_float32() {
     }
     let share = |wrong: u64| wrong as f64 / count as f64;
     println!("wrong {:.5}, by the discriminant {:.5}", share(wrong), share(wrong_by_discriminant));
-    assert!(share(wrong) < 2e-3, "measured elsewhere: 7e-4; here {}", share(wrong));
-    assert!(share(wrong_by_discriminant) > 0.1, "or the test is too easy: {}", share(wrong_by_discriminant));
+    assert!(share(wrong) < 1.2e-3, "measured elsewhere: 7e-4; here {}", share(wrong));
+    assert!(share(wrong_by_discriminant) > 0.4, "or the test is too easy: {}", share(wrong_by_discriminant));
 }

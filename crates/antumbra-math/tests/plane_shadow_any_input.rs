@@ -54,6 +54,7 @@ fn scaled(shape: &Shape, unit: f64) -> Shape {
         }
         .into(),
         Shape::Plane(p) => Plane { offset: p.offset * unit, ..p }.into(),
+        _ => unreachable!("a shape that this test does not know"),
     }
 }
 

@@ -49,6 +49,7 @@ fn check(shape: usize, seed: u64) {
             Shape::Cone(c) => c.base_center,
             Shape::Rectangle(r) => r.center,
             Shape::Plane(p) => p.normal * p.offset,
+            _ => unreachable!("a shape that this test does not know"),
         });
         for _ in 0..POINTS {
             let point = ask(&mut random, &shadow, middle, size);

@@ -94,6 +94,7 @@ struct Found {
 
 impl Found {
     fn add(&mut self, difference: f64, single: f64) {
+        assert!(difference.is_finite() && single.is_finite(), "{difference}, {single} in float32");
         self.count += 1;
         self.squares += difference * difference;
         self.largest = self.largest.max(difference.abs());
@@ -179,8 +180,8 @@ fn cases() -> usize {
     80 * factor
 }
 
-/// The quadrature's error at 8 nodes is .0005 to .0022 (RMS); the bounds are those of the renderer. In float32 the ends
-/// of intervals move by a rounding of the point's distance over the light's size.
+/// The quadrature's error at 8 nodes is .0005 to .0019 (RMS), and .0087 at most; of more cases the largest is larger. In
+/// float32 the ends of intervals move by a rounding of the point's distance over the light's size.
 #[test]
 fn one_occluder() {
     for (l, light) in LIGHTS.iter().enumerate() {
@@ -188,10 +189,10 @@ fn one_occluder() {
             let found = compare(l, &[s], cases(), 8);
             let (rms, largest, single) = (found.rms(), found.largest, found.largest_single);
             println!("{light} light, {shape}: rms {rms:.5}, largest {largest:.4}, float32 {single:.5}");
-            let (bound, most) = if (l, s) == (0, 0) { (0.002, 0.01) } else { (0.004, 0.03) };
+            let (bound, most) = if (l, s) == (0, 0) { (0.0006, 0.0025) } else { (0.002, 0.012) };
             assert!(rms <= bound, "{light}, {shape}: rms {rms}");
             assert!(largest <= most, "{light}, {shape}: largest {largest}");
-            assert!(single <= 0.002, "{light}, {shape}: float32 differs by {single}");
+            assert!(single <= 0.0006, "{light}, {shape}: float32 differs by {single}");
         }
     }
 }
@@ -201,7 +202,10 @@ fn one_occluder() {
 fn several_occluders() {
     for (l, light) in LIGHTS.iter().enumerate() {
         let found = compare(l, &[0, 1, 2, 4], cases(), 24);
-        println!("{light} light: rms {:.5}, largest {:.4}", found.rms(), found.largest);
-        assert!(found.rms() <= 0.004, "{light}: rms {}", found.rms());
+        let (largest, single) = (found.largest, found.largest_single);
+        println!("{light} light: rms {:.5}, largest {largest:.4}, float32 {single:.5}", found.rms());
+        assert!(largest <= 0.012, "{light}: largest {largest}");
+        assert!(single <= 0.0006, "{light}: float32 differs by {single}");
+        assert!(found.rms() <= 0.0024, "{light}: rms {}", found.rms());
     }
 }

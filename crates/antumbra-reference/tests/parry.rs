@@ -20,15 +20,15 @@ use parry3d_f64::{
 const RAYS: usize = 30_000;
 
 /// parry's closed forms, and ours: both are good to rounding, about 1e-15, amplified by rays that start 1e3 sizes away
-/// and by transforms.
-const CLOSED_FORM: Judge = Judge { tolerance: 1e-10, grazing: 1e-10 };
+/// and by transforms: 7e-13 at most.
+const CLOSED_FORM: Judge = Judge { tolerance: 1e-12, grazing: 1e-10 };
 
 /// parry's GJK usually stops within this, but not always: it walks past edges and apexes, by up to 5 % of the size.
 /// Where it disagrees by more, walking along the ray decides who is right, and it must not be needed often.
 const GJK: Judge = Judge { tolerance: 1e-6, grazing: 1e-5 };
 
 /// parry's ball solves b² - ac, which cancels from 1e3 radii away: 1e6 times rounding, and some.
-const BALL: Judge = Judge { tolerance: 1e-8, grazing: 1e-8 };
+const BALL: Judge = Judge { tolerance: 5e-10, grazing: 1e-8 };
 
 #[derive(Clone, Copy)]
 struct Judge {

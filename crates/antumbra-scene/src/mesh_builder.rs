@@ -25,7 +25,7 @@ impl MeshError {
     /// A file whose content is not what its format says.
     pub(crate) fn malformed(what: impl core::fmt::Display) -> Self {
         Self::new(
-            format!("is malformed: {}", one_line(&what.to_string())),
+            format!("is malformed: {}", one_line(what.to_string().trim_end_matches([';', ' ']))),
             "write the mesh again with the program that made it",
         )
     }

@@ -38,7 +38,7 @@ fn seeds() -> Vec<String> {
     seeds
 }
 
-/// Parses and checks; true if the bytes are a scene.
+/// Parses and checks; true if the bytes are a scene with something in it.
 fn survives(bytes: &[u8]) -> bool {
     let start = Instant::now();
     let result = Scene::from_bytes(bytes, Path::new("no/such/folder/fuzz.toml"));
@@ -47,7 +47,7 @@ fn survives(bytes: &[u8]) -> bool {
             for time in [0.0, 1.3, -1e300, f64::NAN] {
                 common::assert_sound(scene, time);
             }
-            written::assert_written(scene, core::str::from_utf8(bytes).expect("a scene is text"));
+            let _ = written::assert_written(scene, core::str::from_utf8(bytes).expect("a scene is text"));
         }
         Err(error) => {
             let line = error.to_string();
@@ -59,11 +59,11 @@ fn survives(bytes: &[u8]) -> bool {
         }
     }
     assert!(start.elapsed() < LONGEST, "took {:?}", start.elapsed());
-    result.is_ok()
+    result.is_ok_and(|scene| !(scene.lights.is_empty() && scene.objects.is_empty()))
 }
 
-/// Runs `cases` inputs and says how many there were and how many were scenes.
-fn run<S: Strategy>(name: &str, cases: u32, strategy: S, test: impl Fn(S::Value) -> bool) {
+/// Runs `cases` inputs and says how many there were and how many were scenes; returns the share of those.
+fn run<S: Strategy>(name: &str, cases: u32, strategy: S, test: impl Fn(S::Value) -> bool) -> f64 {
     let cases = std::env::var("ANTUMBRA_FUZZ_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(cases);
     let config = Config { cases, failure_persistence: None, ..Config::default() };
     let (start, valid) = (Instant::now(), std::cell::Cell::new(0u32));
@@ -74,6 +74,7 @@ fn run<S: Strategy>(name: &str, cases: u32, strategy: S, test: impl Fn(S::Value)
         })
         .unwrap_or_else(|e| panic!("{name}: {e}"));
     println!("{name}: {cases} inputs, {} of them scenes, in {:.1?}", valid.get(), start.elapsed());
+    f64::from(valid.get()) / f64::from(cases.max(1))
 }
 
 #[test]
@@ -86,7 +87,8 @@ fn raw_bytes() {
         ],
         0..300,
     );
-    run("raw bytes", 20_000, prop_oneof![noise, tomlish], |bytes| survives(&bytes));
+    // Hardly any of them is a scene.
+    let _ = run("raw bytes", 20_000, prop_oneof![noise, tomlish], |bytes| survives(&bytes));
 }
 
 /// One change to a file.
@@ -226,13 +228,16 @@ fn mutated_scenes() {
     let seeds = seeds();
     for seed in &seeds {
         assert!(survives(seed.as_bytes()), "a seed must be a scene");
+        let scene = Scene::parse(seed, Path::new("no/such/folder/fuzz.toml")).expect("a scene");
+        assert!(written::assert_written(&scene, seed), "and is one when it is changed");
     }
     let inputs = (any::<Index>(), proptest::collection::vec(edit(), 1..4));
-    run("mutated scenes", 15_000, inputs, |(seed, edits)| {
+    let scenes = run("mutated scenes", 15_000, inputs, |(seed, edits)| {
         let mut bytes = seeds[seed.index(seeds.len())].clone().into_bytes();
         edits.iter().for_each(|e| apply(&mut bytes, e));
         survives(&bytes)
     });
+    assert!(scenes > 0.03, "some are scenes still: {scenes}");
 }
 
 /// A number as a file could write it: mostly sensible, sometimes anything.
@@ -394,7 +399,8 @@ fn structured() -> impl Strategy<Value = String> {
 
 #[test]
 fn structured_values() {
-    run("structured values", 10_000, structured(), |text| survives(text.as_bytes()));
+    let scenes = run("structured values", 10_000, structured(), |text| survives(text.as_bytes()));
+    assert!(scenes > 0.01, "some are scenes: {scenes}");
 }
 
 #[test]

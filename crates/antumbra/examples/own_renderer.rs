@@ -2,7 +2,7 @@
 use antumbra::glam::camera::rh::{proj::opengl::perspective, view::look_at_mat4};
 use antumbra::glam::{Mat4, Vec3, Vec4, vec3};
 use antumbra::glow::{self, HasContext};
-use antumbra::{Camera, Encoding, Frame, Light, Occluder, Renderer, Surface};
+use antumbra::{Camera, Encoding, Frame, Framebuffer, Light, Occluder, Renderer, Surface, Texture};
 use antumbra_host::{Api, HeadlessContext};
 const SIZE: [i32; 2] = [800, 450];
 const LIGHTS: [(Vec3, Vec3); 2] =
@@ -51,25 +51,26 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // A description of lights and occluders, in the host's own terms.
     let lights = LIGHTS.map(|(position, intensity)| Light::point(position, intensity));
-    let occluders = BALLS.map(|(center, radius)| Occluder::sphere(center, radius.into()));
-    let frame = Frame {
-        lights: &lights,
-        occluders: &occluders,
-        ambient: Vec3::splat(0.3), // as in the shader
-        ..Frame::new(Camera::new(view, projection), [0, 0, SIZE[0], SIZE[1]], Surface::from_depth(depth))
-    };
+    let occluders = BALLS.map(|(center, radius)| Occluder::sphere(center, radius));
+    // SAFETY: a depth texture that outlives the frame.
+    let surface = Surface::from_depth(unsafe { Texture::from_glow(depth) });
+    let frame = Frame::new(Camera::new(view, projection), [0, 0, SIZE[0], SIZE[1]], surface)
+        .lights(&lights)
+        .occluders(&occluders)
+        .ambient([0.3; 3]); // as in the shader
 
     // Way 1, overlay: one call after drawing.
     draw(&gl, program, whole, projection * view, None);
     // SAFETY: a framebuffer of this context.
-    unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(color_only)) };
-    shadows.overlay(&frame, Encoding::Gamma(2.2))?;
+    let target = unsafe { Framebuffer::from_glow(Some(color_only)) };
+    shadows.overlay_to(&frame, Encoding::Gamma(2.2), target)?;
     save(&gl, "overlay.png")?;
 
     // Way 2, masks: the host's own shader looks up how much of each light arrives.
-    let mut mask = None;
-    shadows.masks(&frame, |batch| mask = Some(batch.textures[0]))?;
-    draw(&gl, program, whole, projection * view, mask);
+    let mut batches = shadows.masks(&frame)?;
+    while let Some(batch) = batches.next()? {
+        draw(&gl, program, whole, projection * view, Some(batch.textures[0].glow()));
+    }
     save(&gl, "masks.png")?;
     println!("wrote overlay.png and masks.png");
     Ok(())

@@ -97,7 +97,8 @@ impl Crate {
     }
 }
 
-/// The Rust files below a folder, with their texts: without comments, string literals, and modules of tests.
+/// The Rust files below a folder but those of tests, with their texts: without comments, string literals, and modules of
+/// tests.
 pub(crate) fn sources(folder: &Path) -> Vec<(String, String)> {
     let mut files = Vec::new();
     let mut folders: Vec<PathBuf> = vec![folder.to_owned()];
@@ -107,14 +108,35 @@ pub(crate) fn sources(folder: &Path) -> Vec<(String, String)> {
             let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
             if path.is_dir() {
                 folders.push(path);
-            } else if name.ends_with(".rs") && !name.ends_with("tests.rs") && name != "main.rs" {
+            } else if name.ends_with(".rs") && name != "main.rs" {
                 let text = std::fs::read_to_string(&path).expect("a source");
-                files.push((path.display().to_string(), without_tests(&code(&text))));
+                files.push((path.display().to_string(), code(&text)));
             }
         }
     }
+    let tests: Vec<PathBuf> = files.iter().flat_map(|(file, code)| modules_of_tests(file, code)).collect();
+    files.retain(|(file, _)| {
+        let module = Path::new(file).with_extension("");
+        !tests.iter().any(|tests| module.starts_with(tests))
+    });
     files.sort();
-    files
+    files.into_iter().map(|(file, code)| (file, without_tests(&code))).collect()
+}
+
+/// The modules of tests that a file declares and that have files of their own: their paths without an ending.
+fn modules_of_tests(file: &str, code: &str) -> Vec<PathBuf> {
+    let path = Path::new(file);
+    let folder = match path.file_stem().and_then(|stem| stem.to_str()) {
+        Some("lib" | "mod") => path.with_file_name(""),
+        _ => path.with_extension(""),
+    };
+    let declared = code.split("#[cfg(test)]").skip(1).filter_map(|rest| {
+        let (declaration, _) = rest.split_once(';')?;
+        let (before, name) = declaration.rsplit_once("mod ")?;
+        let is_mod = before.trim().is_empty() || before.trim().starts_with("pub");
+        (is_mod && !name.contains('{')).then(|| folder.join(name.trim()))
+    });
+    declared.collect()
 }
 
 /// The module that a file is.

@@ -1,7 +1,7 @@
 //! Lines in the world, drawn over the picture: smooth, and dashed where something is in front of them.
 
-use antumbra::Surface;
 use antumbra::glam::{DVec2, DVec3, Vec2};
+use antumbra::{Depth, Surface};
 use antumbra_host::{HostError, Setting};
 use bytemuck::{Pod, Zeroable};
 use glow::HasContext;
@@ -105,6 +105,8 @@ impl Lines {
         }
         let sampled = usize::from(place.surface.samples > 1);
         let [x, y, w, h] = place.rect;
+        let Depth::Texture(depth) = place.surface.depth else { return Ok(()) };
+        let depth = depth.glow();
         // SAFETY: the caller's; the buffer holds as many vertices as are drawn.
         unsafe {
             if self.programs[sampled].is_none() {
@@ -115,7 +117,7 @@ impl Lines {
             gl.use_program(Some(program.raw));
             gl.active_texture(glow::TEXTURE0);
             let target = if sampled == 1 { glow::TEXTURE_2D_MULTISAMPLE } else { glow::TEXTURE_2D };
-            gl.bind_texture(target, Some(place.surface.depth));
+            gl.bind_texture(target, Some(depth));
             gl.uniform_1_i32(program.uniform(gl, "u_depth").as_ref(), 0);
             gl.uniform_1_f32(program.uniform(gl, "u_near").as_ref(), place.setting.near() as f32);
             gl.uniform_2_f32(program.uniform(gl, "u_origin").as_ref(), x as f32, y as f32);

@@ -62,7 +62,7 @@ impl MapView {
             gl.clear_buffer_f32_slice(glow::COLOR, 0, &[0.05, 0.05, 0.06, 1.0]);
             gl.use_program(Some(program.raw));
             gl.active_texture(glow::TEXTURE0);
-            gl.bind_texture(glow::TEXTURE_2D, Some(map.texture));
+            gl.bind_texture(glow::TEXTURE_2D, Some(map.texture.glow()));
             gl.bind_sampler(0, None);
             gl.bind_vertex_array(self.vertex_array);
             let uniform = |name| program.uniform(gl, name);

@@ -58,7 +58,7 @@ impl Model {
             offsets[index] = edit::within(offsets[index] + by);
             self.document.edit_all(("move component", light), |_, components| {
                 components.retain(|c| c.light != light);
-                components.extend(offsets.into_iter().map(|offset| Component { light, offset }));
+                components.extend(offsets.into_iter().map(|offset| Component::new(light, offset)));
             });
         } else if light < self.scene().lights.len() {
             self.document.edit(("move light", light), |s| edit::move_light(&mut s.lights[light], by));

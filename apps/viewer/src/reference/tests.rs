@@ -68,12 +68,14 @@ fn it_ends_with_what_the_tracer_renders() {
 #[test]
 fn a_preview_comes_first_and_refinement_after() {
     let mut refinement = Refinement::with_target(1 << 20, || {});
+    // Large enough that the first pass takes longer than it takes to look.
+    refinement.request(scene(0.0), 0.0, 2001, 999);
+    let preview = wait(&mut refinement, "a preview", |_| true).clone();
+    assert_eq!(preview.samples, 0, "a preview comes first");
+    assert_eq!((preview.width, preview.height, preview.pixels.len()), (501, 250, 501 * 250));
     refinement.request(scene(0.0), 0.0, 201, 99);
-    let preview = wait(&mut refinement, "a preview", |_| true);
-    let mut last = preview.clone();
-    if preview.samples == 0 {
-        assert_eq!((preview.width, preview.height, preview.pixels.len()), (51, 25, 51 * 25));
-    }
+    let mut last =
+        wait(&mut refinement, "the small one", |traced| !traced.stale && traced.width == 201).clone();
     let began = Instant::now();
     let mut pictures = 0;
     while began.elapsed() < Duration::from_secs(1) {

@@ -135,7 +135,6 @@ impl Source {
             Place::Point { position } | Place::Spot { position, .. } => position,
         };
         Self::Body(match light.area {
-            Area::None => Body::Points(vec![position]),
             Area::Sphere { radius } => Body::Balls(vec![(position, radius)]),
             Area::Disc { direction, radius } => {
                 Body::Discs { axis: direction.normalize_or_zero(), discs: vec![(position, radius)] }
@@ -145,6 +144,7 @@ impl Source {
                     .map(|(x, y)| position + half_right * x + half_up * y)
                     .to_vec(),
             ),
+            _ => Body::Points(vec![position]),
         })
     }
 

@@ -152,6 +152,7 @@ impl<'a> Situation<'a> {
                     (frame, Bounds::around(frame.coordinates(middle), WINDOW * radius))
                 }
                 ReceiverShape::Rectangle(rectangle) => PlaneFrame::of_rectangle(&rectangle)?,
+                _ => return None,
             };
             let primitive = (receiver.id as usize).checked_sub(1)?;
             bounds.is_finite().then_some(PlanarReceiver { primitive, frame, bounds })

@@ -135,6 +135,7 @@ fn the_antumbra_is_the_one_computed_by_hand() {
         assert!((p.length() - 3f64.sqrt().recip()).abs() < 1e-9, "{p}");
     }
     assert!(of(&drawing, LineKind::Umbra).is_empty());
+    assert_eq!(of(&drawing, LineKind::UmbraRay).len(), 24, "rays past light and ball");
     for ray in of(&drawing, LineKind::UmbraRay) {
         assert!((ray.points[2].length() - 3f64.sqrt().recip()).abs() < 1e-9, "{ray:?}");
     }
@@ -263,6 +264,7 @@ fn outlines_divide_what_the_ray_tracer_sees() {
                 let floor = tracer.surface(&down).expect("the floor");
                 tracer.visibility_at(0, &floor, 1024, 7)
             };
+            let before = checked;
             for line in &drawing.lines {
                 let fits = |outside: f64, inside: f64| match line.kind {
                     LineKind::HardEdge => outside == 1.0 && inside == 0.0,
@@ -286,6 +288,7 @@ fn outlines_divide_what_the_ray_tracer_sees() {
                     checked += 1;
                 }
             }
+            assert!(checked > before, "{shape} under {light} has an outline");
         }
     }
     assert!(checked > 1500, "only {checked} points");

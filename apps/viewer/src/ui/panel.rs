@@ -114,13 +114,13 @@ fn soft(ui: &mut Ui, soft: &mut Soft) {
     ui.horizontal(|ui| {
         let label = ui.label("area lights");
         let name = match soft {
-            Soft::Native => "its own way",
-            Soft::Samples { pattern: Pattern::Spread, .. } => "samples",
             Soft::Samples { pattern: Pattern::Row, .. } => "samples in a row",
+            Soft::Samples { .. } => "samples",
+            _ => "its own way",
         };
         let count = match *soft {
-            Soft::Native => 16,
             Soft::Samples { count, .. } => count,
+            _ => 16,
         };
         let combo = ComboBox::from_id_salt("soft").selected_text(name).show_ui(ui, |ui| {
             ui.selectable_value(soft, Soft::Native, "its own way");

@@ -68,11 +68,15 @@ pub(crate) fn run(arguments: &InfoArgs) -> Result<(), CliError> {
 fn tier(tier: Tier) -> (&'static str, &'static str) {
     match tier {
         Tier::Es3 => ("es3", "OpenGL ES 3.0: masks, and overlays of a few lights"),
-        Tier::Es3Float => ("es3-float", "OpenGL ES 3.0 with floating-point targets: masks and overlays"),
+        Tier::Es3Half => {
+            ("es3-half", "OpenGL ES 3.0 with 16-bit floats: masks, and overlays of a few lights")
+        }
+        Tier::Es3Float => ("es3-float", "OpenGL ES 3.0 with floats that blend: masks and overlays"),
         Tier::Core33 => ("core33", "OpenGL 3.3: masks and overlays"),
         Tier::Core33Samples => {
             ("core33-samples", "OpenGL 3.3 with sample shading: masks and overlays, multisampled")
         }
+        _ => ("other", "a tier that this program does not know"),
     }
 }
 

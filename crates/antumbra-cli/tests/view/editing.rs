@@ -1,5 +1,7 @@
 //! Editing that is left half done: nothing that was written is lost, nothing that was only looked at changes.
 
+use std::time::Duration;
+
 use antumbra::glam::DVec3;
 use serde_json::json;
 
@@ -71,6 +73,8 @@ fn left_half_done() {
     v.enter("SpinButton", "position x", "nan");
     v.enter("SpinButton", "position y", "");
     v.press("Escape");
+    // A state from after that.
+    v.lines_within(Duration::from_millis(500));
     assert_eq!(v.state["objects"], before, "it is where it was");
 }
 

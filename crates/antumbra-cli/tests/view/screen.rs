@@ -1,11 +1,11 @@
 //! A display of its own, with a keyboard and a mouse that the test moves, and pictures of what is on it.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter};
+use std::io::BufWriter;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use antumbra_host::TestDisplay;
 use x11rb::CURRENT_TIME;
 use x11rb::connection::Connection;
 use x11rb::protocol::Event;
@@ -21,8 +21,7 @@ const SCREEN: [u16; 2] = [1400, 1000];
 
 /// An X server without hardware (Xvfb), and a connection to it.
 pub(crate) struct Screen {
-    server: Child,
-    display: String,
+    server: TestDisplay,
     connection: RustConnection,
     root: Window,
     keys: Vec<(u8, Vec<u32>)>,
@@ -68,31 +67,10 @@ impl Shot {
 }
 
 impl Screen {
-    /// Starts a server. Where there is none this says so and the test is skipped; with `ANTUMBRA_REQUIRE_GL=1`, as
-    /// `cargo xtask test` sets it, that is a failure.
+    /// Starts a server; `None` where there is none, said aloud.
     pub(crate) fn start() -> Option<Self> {
-        let size = format!("{}x{}x24", SCREEN[0], SCREEN[1]);
-        let started = Command::new("Xvfb")
-            // -r: a key does not repeat, however long a busy machine takes to release it.
-            .args(["-r", "-displayfd", "1", "-screen", "0", &size, "-nolisten", "tcp", "-noreset"])
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn();
-        let mut server = match started {
-            Ok(server) => server,
-            Err(error) => {
-                let required = std::env::var_os("ANTUMBRA_REQUIRE_GL").is_some_and(|value| value == "1");
-                assert!(!required, "ANTUMBRA_REQUIRE_GL=1 and Xvfb does not start: {error}");
-                eprintln!("SKIPPED: Xvfb does not start ({error}); `cargo xtask setup` installs it");
-                return None;
-            }
-        };
-        let mut number = String::new();
-        let output = server.stdout.take().expect("it is piped");
-        BufReader::new(output).read_line(&mut number).expect("Xvfb says its number");
-        let display = format!(":{}", number.trim());
-        let (connection, screen) = connect(&display);
+        let server = TestDisplay::start(SCREEN)?;
+        let (connection, screen) = connect(server.name());
         let root = connection.setup().roots[screen].root;
         let (low, high) = (connection.setup().min_keycode, connection.setup().max_keycode);
         let mapping =
@@ -104,12 +82,12 @@ impl Screen {
         // Requests to a window manager, which there is none of, go to the root window: this test sees them.
         let mask = ChangeWindowAttributesAux::new().event_mask(EventMask::SUBSTRUCTURE_NOTIFY);
         connection.change_window_attributes(root, &mask).expect("sent").check().expect("the root window");
-        Some(Self { server, display, connection, root, keys })
+        Some(Self { server, connection, root, keys })
     }
 
     /// For `DISPLAY`.
     pub(crate) fn display(&self) -> &str {
-        &self.display
+        self.server.name()
     }
 
     fn sync(&self) {
@@ -267,14 +245,6 @@ impl Screen {
         // 24 bits in 32, the least significant byte first: what Xvfb has on every machine that this is tested on.
         let rgb = image.data.chunks_exact(4).map(|bgrx| [bgrx[2], bgrx[1], bgrx[0]]).collect();
         Shot { size: [usize::from(width), usize::from(height)], rgb }
-    }
-}
-
-impl Drop for Screen {
-    fn drop(&mut self) {
-        // It may have ended already.
-        drop(self.server.kill());
-        drop(self.server.wait());
     }
 }
 

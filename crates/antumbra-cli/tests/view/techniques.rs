@@ -160,6 +160,7 @@ fn the_reference_does_not_stop_the_interface() {
         });
         samples = samples.max(v.state["traced"][0].as_u64().unwrap_or(0));
     }
+    assert!(samples > 0, "rays were traced while it moved");
     v.wait("rays of what is there now", |state| {
         state["traced"][2] == false && state["traced"][0].as_u64() > Some(1)
     });

@@ -1,7 +1,7 @@
 //! One frame of the host as everything that draws reads it.
 
-use super::{Caps, Program, Target, TargetFormat};
-use crate::input::{Error, Frame};
+use super::{Caps, Needs, Program, Target, TargetFormat};
+use crate::input::{Error, Frame, HostState, Texture};
 use crate::screen::View;
 use glow::HasContext;
 
@@ -12,6 +12,10 @@ pub(crate) struct Drawing<'a> {
     pub(crate) caps: &'a Caps,
     pub(crate) frame: Frame<'a>,
     pub(crate) view: &'a View,
+    /// What is done about the host's state.
+    pub(crate) host: HostState,
+    /// What is in the host's frame.
+    pub(crate) needs: Needs,
 }
 
 impl Drawing<'_> {
@@ -47,9 +51,9 @@ impl Drawing<'_> {
         unsafe {
             gl.use_program(Some(program.raw));
             for (unit, (location, texture)) in [
-                (&u.depth, Some(surface.depth)),
-                (&u.normals, surface.normals.map(|n| n.texture)),
-                (&u.ids, surface.ids),
+                (&u.depth, surface.depth_texture()),
+                (&u.normals, surface.normals.map(|n| n.texture.glow())),
+                (&u.ids, surface.ids.map(Texture::glow)),
             ]
             .into_iter()
             .enumerate()

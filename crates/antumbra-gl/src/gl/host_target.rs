@@ -1,28 +1,31 @@
 //! The framebuffer the host wants its shadows in.
 
-use super::Caps;
-use crate::input::{Error, Image, Surface};
+use super::Drawing;
+use crate::input::{Error, HostState};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::input::{Image, Texture};
 use glow::HasContext;
 
-/// Refuses a target that has one of the textures attached that its own shading would read.
+/// Refuses a target that has one of the textures attached that its own shading would read. Where the host vouches for its
+/// state, nothing is asked.
 ///
 /// # Safety
 /// `framebuffer` is bound for drawing.
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) unsafe fn refuse_feedback(
-    gl: &glow::Context,
+    drawing: &Drawing<'_>,
     framebuffer: Option<glow::Framebuffer>,
-    surface: &Surface,
-    caps: Caps,
 ) -> Result<(), Error> {
-    if framebuffer.is_none() {
+    let (gl, surface) = (drawing.gl, &drawing.frame.surface);
+    if framebuffer.is_none() || drawing.host == HostState::Reset {
         return Ok(()); // the window's own buffers are no textures
     }
     let read = [
-        (Image::Depth, Some(surface.depth)),
-        (Image::Normals, surface.normals.map(|n| n.texture)),
-        (Image::Ids, surface.ids),
+        (Image::Depth, surface.depth_texture()),
+        (Image::Normals, surface.normals.map(|n| n.texture.glow())),
+        (Image::Ids, surface.ids.map(Texture::glow)),
     ];
-    let colors = (0..caps.draw_buffers).map(|i| glow::COLOR_ATTACHMENT0 + i);
+    let colors = (0..drawing.caps.draw_buffers).map(|i| glow::COLOR_ATTACHMENT0 + i);
     for attachment in colors.chain([glow::DEPTH_ATTACHMENT, glow::STENCIL_ATTACHMENT]) {
         // SAFETY: the caller's; the attachment points exist, and a name is only asked for where
         // something is attached.
@@ -43,6 +46,15 @@ pub(crate) unsafe fn refuse_feedback(
     Ok(())
 }
 
+/// In a browser textures have no names to compare, and a draw that reads what it writes is refused by WebGL itself.
+///
+/// # Safety
+/// None is needed.
+#[cfg(target_arch = "wasm32")]
+pub(crate) unsafe fn refuse_feedback(_: &Drawing<'_>, _: Option<glow::Framebuffer>) -> Result<(), Error> {
+    Ok(())
+}
+
 /// The host's draw buffers beside the first, switched off for one draw.
 pub(crate) struct OtherBuffers {
     buffers: [u32; 16],
@@ -50,16 +62,16 @@ pub(crate) struct OtherBuffers {
 }
 
 impl OtherBuffers {
-    /// Switches them off; `None` when there are none.
+    /// Switches them off; `None` when there are none, and where the host vouches for its state.
     ///
     /// # Safety
     /// `framebuffer` is bound for drawing and a [`super::StateGuard`] is alive.
     pub(crate) unsafe fn leave_alone(
-        gl: &glow::Context,
-        caps: Caps,
+        drawing: &Drawing<'_>,
         framebuffer: Option<glow::Framebuffer>,
     ) -> Option<Self> {
-        framebuffer?;
+        let (gl, caps) = (drawing.gl, drawing.caps);
+        framebuffer.filter(|_| drawing.host != HostState::Reset)?;
         let mut buffers = [glow::NONE; 16];
         let all = caps.draw_buffers.min(16) as usize;
         for (i, buffer) in buffers.iter_mut().enumerate().take(all) {

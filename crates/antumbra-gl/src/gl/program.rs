@@ -26,17 +26,31 @@ pub(crate) struct ProgramSource {
 
 /// What has to be in a frame for a program to be compiled: what others cost to compile is not spent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum When {
+pub(crate) struct When {
+    balls: bool,
+    flats: bool,
+    exact: bool,
+    /// Whether lights may weaken in any way, or in the classic one alone; `None` for programs that do not ask.
+    falloff: Option<bool>,
+}
+
+impl When {
     /// Anything.
-    Always,
+    pub(crate) const ALWAYS: Self = Self { balls: false, flats: false, exact: false, falloff: None };
     /// Glowing balls.
-    Balls,
+    pub(crate) const BALLS: Self = Self { balls: true, ..Self::ALWAYS };
     /// Lights that are discs or rectangles.
-    Flats,
-    /// Balls, past several occluders at once.
-    BallsExactly,
-    /// Discs and rectangles, past several occluders at once.
-    FlatsExactly,
+    pub(crate) const FLATS: Self = Self { flats: true, ..Self::ALWAYS };
+
+    /// The same, past several occluders at once.
+    pub(crate) const fn exactly(self) -> Self {
+        Self { exact: true, ..self }
+    }
+
+    /// The same with lights that weaken in any way, or in the classic one alone.
+    pub(crate) const fn falloff(self, any: bool) -> Self {
+        Self { falloff: Some(any), ..self }
+    }
 }
 
 /// What is in a frame, as far as programs differ by it.
@@ -48,27 +62,27 @@ pub(crate) struct Needs {
     pub(crate) flats: bool,
     /// Whether several occluders of such lights are looked at at once.
     pub(crate) exact: bool,
+    /// Whether any light weakens in another way than the classic one.
+    pub(crate) falloff: bool,
 }
 
 impl Needs {
     /// Those of some lights.
     pub(crate) fn of(lights: &[Light]) -> Self {
-        let any = |has: fn(&Area) -> bool| lights.iter().any(|light| has(&light.area));
+        let any = |has: fn(&Light) -> bool| lights.iter().any(has);
         Self {
-            balls: any(|area| matches!(area, Area::Sphere { .. })),
-            flats: any(|area| matches!(area, Area::Disc { .. } | Area::Rectangle { .. })),
+            balls: any(|light| matches!(light.area, Area::Sphere { .. })),
+            flats: any(|light| matches!(light.area, Area::Disc { .. } | Area::Rectangle { .. })),
             exact: false,
+            falloff: any(Light::has_special_falloff),
         }
     }
 
     fn have(self, when: When) -> bool {
-        match when {
-            When::Always => true,
-            When::Balls => self.balls,
-            When::Flats => self.flats,
-            When::BallsExactly => self.balls && self.exact,
-            When::FlatsExactly => self.flats && self.exact,
-        }
+        (self.balls || !when.balls)
+            && (self.flats || !when.flats)
+            && (self.exact || !when.exact)
+            && when.falloff.is_none_or(|any| any == self.falloff)
     }
 }
 
@@ -126,7 +140,7 @@ impl ProgramSource {
             vertex: Stage { defines: "", parts: &[SCREEN] },
             fragment: Stage { defines, parts },
             uniforms,
-            when: When::Always,
+            when: When::ALWAYS,
         }
     }
 

@@ -1,7 +1,7 @@
 //! A stencil buffer beside the masks, for techniques that count or mark pixels.
 
-use super::Target;
-use crate::input::{Error, Resource};
+use super::{Drawing, Target};
+use crate::input::{Error, HostState, Resource};
 use glow::HasContext;
 
 /// A depth and stencil buffer of one size. The depth is there because every driver has the two together, and few
@@ -18,14 +18,19 @@ impl StencilBuffer {
     ///
     /// # Safety
     /// A [`super::StateGuard`] is alive, and `mask` is a target of this context.
-    pub(crate) unsafe fn attach(&mut self, gl: &glow::Context, mask: &Target) -> Result<(), Error> {
+    pub(crate) unsafe fn attach(&mut self, drawing: &Drawing<'_>, mask: &Target) -> Result<(), Error> {
+        let gl = drawing.gl;
         let key @ (width, height, samples) = mask.key();
         let refused = || Error::Resource(Resource::Stencil { width, height, samples });
         // SAFETY: the caller's; the renderbuffer binding is put back.
         unsafe {
             if self.renderbuffer.is_none() || self.key != key {
                 self.delete(gl);
-                let bound = gl.get_parameter_renderbuffer(glow::RENDERBUFFER_BINDING);
+                let bound = match drawing.host {
+                    HostState::Reset => None,
+                    #[cfg(not(target_arch = "wasm32"))]
+                    HostState::Restore => gl.get_parameter_renderbuffer(glow::RENDERBUFFER_BINDING),
+                };
                 let renderbuffer = gl.create_renderbuffer().map_err(|_| refused())?;
                 gl.bind_renderbuffer(glow::RENDERBUFFER, Some(renderbuffer));
                 let format = glow::DEPTH24_STENCIL8;

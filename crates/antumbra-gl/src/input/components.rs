@@ -1,12 +1,13 @@
 //! Lights with an area as collections of point lights, as the paper on soft shadows of 2017 has them.
 
-use super::{Area, Light};
+use super::{Area, Light, Vector};
 use antumbra_math::Light as Place;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
 /// A side component that has been put somewhere by hand, for the technique `composite` with `shade=paper`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Component {
     /// The light it belongs to: its index in [`crate::Frame::lights`]. Of lights without area, and of lights that are not
     /// there, components are not looked at.
@@ -16,19 +17,18 @@ pub struct Component {
     pub offset: DVec3,
 }
 
+impl Component {
+    /// A component of the frame's light `light`, so far from its position.
+    pub fn new(light: usize, offset: impl Into<Vector>) -> Self {
+        Self { light, offset: offset.into().glam() }
+    }
+}
+
 /// Calls `each` with the offsets of `count` components from the position of a light with this area: the centre, then
 /// the others, evenly on its rim. Of three those are in a row. A ball's rim is its horizontal great circle, a
 /// rectangle's the ellipse in it. None for a light without area.
 pub fn components(area: &Area, count: u32, mut each: impl FnMut(DVec3)) {
-    let (right, up) = match *area {
-        Area::None => return,
-        Area::Sphere { radius } => (DVec3::X * radius, DVec3::Z * radius),
-        Area::Disc { direction, radius } => {
-            let right = direction.any_orthonormal_vector();
-            (right * radius, direction.cross(right) * radius)
-        }
-        Area::Rectangle { half_right, half_up, .. } => (half_right, half_up),
-    };
+    let Some([right, up]) = area.half_axes() else { return };
     if count > 0 {
         each(DVec3::ZERO);
     }

@@ -4,6 +4,7 @@ use super::FrameFault;
 
 /// How the host's pixels encode radiance, for [`crate::Renderer::overlay`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Encoding {
     /// Pixels are linear: float targets, or sRGB targets with `GL_FRAMEBUFFER_SRGB`. Exact.
     Linear,

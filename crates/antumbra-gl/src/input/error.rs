@@ -206,6 +206,12 @@ pub enum Unsupported {
     /// The depth of a framebuffer that has none.
     #[error("shadows need a depth buffer, and the framebuffer has none")]
     NoDepth,
+    /// The depth of this framebuffer cannot be copied.
+    #[error(
+        "the driver does not copy this framebuffer's depth; draw to a depth texture (`Surface::from_depth`), or take \
+         another depth format"
+    )]
+    DepthCopy,
     /// A depth texture that is a layer of an array, a face of a cube or a level of a mipmap.
     #[error(
         "a depth texture needs to be plain, level 0 of a TEXTURE_2D or TEXTURE_2D_MULTISAMPLE, to be read where it is; \

@@ -5,6 +5,7 @@ use antumbra_math::{Plane, Rectangle};
 /// A flat surface that the host has drawn and that shadows fall on, for the techniques that are confined to
 /// planes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Receiver {
     /// Where it is.
     pub shape: ReceiverShape,
@@ -14,6 +15,7 @@ pub struct Receiver {
 
 /// The shapes of receivers.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ReceiverShape {
     /// An infinite plane.
     Plane(Plane),
@@ -22,8 +24,18 @@ pub enum ReceiverShape {
 }
 
 impl Receiver {
+    /// A receiver without an id.
+    pub fn new(shape: ReceiverShape) -> Self {
+        Self { shape, id: 0 }
+    }
+
+    /// The same with an id.
+    pub fn with_id(self, id: u32) -> Self {
+        Self { id, ..self }
+    }
+
     /// The plane the receiver lies in, its normal to either side; not finite for a rectangle without area.
-    pub fn plane(&self) -> Plane {
+    pub(crate) fn plane(&self) -> Plane {
         match self.shape {
             ReceiverShape::Plane(plane) => plane,
             ReceiverShape::Rectangle(r) => {

@@ -44,6 +44,8 @@ pub enum Reason {
     SampleCount(u32),
     /// What is painted has no average over points.
     PaintedSamples,
+    /// There is no closed form for the shape.
+    NoFormForShape,
     /// There is no closed form for meshes.
     NoFormForMeshes,
     /// The papers have no equations for meshes.
@@ -77,6 +79,7 @@ impl fmt::Display for Reason {
             Self::PaintedSamples => {
                 "paints shadows, of which there is no average; take shade=physical, or soft=native"
             }
+            Self::NoFormForShape => "has no closed form for this shape",
             Self::NoFormForMeshes => "has no closed form for meshes",
             Self::NoEquationsForMeshes => "has no equations for meshes",
             Self::NoReceiver => "needs one plane or rectangle that receives shadows",

@@ -8,6 +8,7 @@ use std::str::FromStr;
 ///
 /// As text: `native`, `samples:16`, `samples:3:row`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Soft {
     /// In the technique's own way; techniques that have none refuse such lights.
     #[default]
@@ -25,10 +26,11 @@ pub enum Soft {
 
 /// Where the points of a light are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Pattern {
     /// Spread evenly, so that the average tends to the exact visibility: rectangles in a grid if the number is a
-    /// square, else in a golden-ratio lattice; discs in a sunflower (H. Vogel, 1979); balls as [`crate::light_points`]
-    /// says.
+    /// square, else in a golden-ratio lattice; discs in a sunflower (H. Vogel, 1979); balls with
+    /// points inside them, dense as 1 / sqrt(R² - r²), so that they look like a ball of even radiance from everywhere.
     #[default]
     Spread,
     /// In a row through the centre from rim to rim, as in the paper on soft shadows of 2017. Cheap and coarse: it

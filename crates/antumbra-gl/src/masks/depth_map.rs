@@ -1,5 +1,6 @@
 //! A light's shadow map, for programs that show it.
 
+use crate::input::Texture;
 use glam::DMat4;
 
 /// What a light sees, as the shadows come from it: [`crate::Renderer::depth_map`].
@@ -8,7 +9,7 @@ use glam::DMat4;
 pub struct DepthMap {
     /// A `TEXTURE_2D` of `DEPTH_COMPONENT32F`, without filter and comparison: a `sampler2D` has what is kept in its red
     /// channel. Outside of [`Self::faces`] it holds nothing of this light.
-    pub texture: glow::Texture,
+    pub texture: Texture,
     /// Width and height of the texture, texels.
     pub size: [u32; 2],
     /// Width and height of a face, texels.

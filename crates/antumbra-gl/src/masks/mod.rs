@@ -14,13 +14,12 @@ pub use batch::BATCH_LIGHTS;
 pub(crate) use batch::{Batch, GROUP_LIGHTS, Masks};
 pub use depth_map::{DepthMap, DepthScale, MapFace};
 pub use lights::ShaderLight;
-#[cfg(test)]
-pub(crate) use overlay::OVERLAY_PROGRAMS;
 pub(crate) use overlay::{HostPicture, Overlay};
+#[cfg(test)]
+pub(crate) use overlay::{RATIO_PROGRAM, SUM_PROGRAMS};
 pub(crate) use results::Counts;
 pub use results::{MaskBatch, Stats};
 #[cfg(test)]
 pub(crate) use sampler::SAMPLE_PROGRAMS;
 pub(crate) use sampler::{Points, Sampler, Sampling};
-pub use samples::{light_points, sample_weight};
 pub use shading::IRRADIANCE_GLSL;

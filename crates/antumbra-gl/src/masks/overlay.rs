@@ -23,25 +23,50 @@ const SUMS: &[&str] = &[
     include_str!("../shaders/irradiance.frag.glsl"),
 ];
 
+/// The three passes over lights of one kind.
+macro_rules! sums {
+    ($name:literal, $lights:literal, $when:expr) => {
+        [
+            sum(concat!("overlay", $name), concat!($lights, "#define OVERLAY\n"), $when),
+            sum(concat!("taken", $name), concat!($lights, "#define TAKEN\n"), $when),
+            sum(concat!("all", $name), concat!($lights, "#define ALL\n"), $when),
+        ]
+    };
+}
+
 const fn sum(name: &'static str, defines: &'static str, when: When) -> ProgramSource {
     ProgramSource { when, ..ProgramSource::screen(name, defines, SUMS, &[]) }
 }
 
-/// The passes that sum over lights, for points alone, for balls too, and for flat lights too; then the ratio of the sums.
-pub(crate) const OVERLAY_PROGRAMS: &[ProgramSource] = &[
-    sum("overlay", "#define OVERLAY\n", When::Always),
-    sum("taken", "#define TAKEN\n", When::Always),
-    sum("all", "#define ALL\n", When::Always),
-    sum("overlay, balls", "#define BALL_LIGHTS\n#define OVERLAY\n", When::Balls),
-    sum("taken, balls", "#define BALL_LIGHTS\n#define TAKEN\n", When::Balls),
-    sum("all, balls", "#define BALL_LIGHTS\n#define ALL\n", When::Balls),
-    sum("overlay, flat lights", "#define FLAT_LIGHTS\n#define OVERLAY\n", When::Flats),
-    sum("taken, flat lights", "#define FLAT_LIGHTS\n#define TAKEN\n", When::Flats),
-    sum("all, flat lights", "#define FLAT_LIGHTS\n#define ALL\n", When::Flats),
-    ProgramSource::screen("ratio", "", &[COVERAGE, SURFACE, include_str!("../shaders/ratio.frag.glsl")], &[]),
-];
+/// The passes that sum over lights, for points alone, for balls too, and for flat lights too; then the same for lights that
+/// weaken in any way.
+pub(crate) const SUM_PROGRAMS: &[ProgramSource] = [
+    sums!("", "", When::ALWAYS.falloff(false)),
+    sums!(", balls", "#define ANTUMBRA_BALL_LIGHTS\n", When::BALLS.falloff(false)),
+    sums!(", flat lights", "#define ANTUMBRA_FLAT_LIGHTS\n", When::FLATS.falloff(false)),
+    sums!(", any falloff", "#define ANTUMBRA_FALLOFF\n", When::ALWAYS.falloff(true)),
+    sums!(
+        ", balls, any falloff",
+        "#define ANTUMBRA_FALLOFF\n#define ANTUMBRA_BALL_LIGHTS\n",
+        When::BALLS.falloff(true)
+    ),
+    sums!(
+        ", flat lights, any falloff",
+        "#define ANTUMBRA_FALLOFF\n#define ANTUMBRA_FLAT_LIGHTS\n",
+        When::FLATS.falloff(true)
+    ),
+]
+.as_flattened();
 
-/// What a pass computes; the first three in the order of [`OVERLAY_PROGRAMS`].
+/// The ratio of the sums.
+pub(crate) const RATIO_PROGRAM: &[ProgramSource] = &[ProgramSource::screen(
+    "ratio",
+    "",
+    &[COVERAGE, SURFACE, include_str!("../shaders/ratio.frag.glsl")],
+    &[],
+)];
+
+/// What a pass computes; the first three in the order of [`SUM_PROGRAMS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Pass {
     /// The factor on the host's pixels, of one batch.
@@ -55,14 +80,12 @@ enum Pass {
 }
 
 impl Pass {
-    /// The place in [`OVERLAY_PROGRAMS`] for these lights: what area lights send costs more to find.
-    fn index(self, lights: &[Light]) -> usize {
+    /// The place in [`SUM_PROGRAMS`] for these lights, in a frame in which some weaken in any way or none does: what area
+    /// lights send costs more to find.
+    fn index(self, lights: &[Light], falloff: bool) -> usize {
         let needs = Needs::of(lights);
         let kind = if needs.flats { 2 } else { usize::from(needs.balls) };
-        match self {
-            Self::Ratio => OVERLAY_PROGRAMS.len() - 1,
-            pass => 3 * kind + pass as usize,
-        }
+        9 * usize::from(falloff) + 3 * kind + self as usize
     }
 }
 
@@ -106,7 +129,7 @@ impl Overlay {
     pub(crate) unsafe fn new(gl: &glow::Context) -> Result<Self, Error> {
         // SAFETY: the caller's.
         let screen = unsafe { TileMesh::new(gl)? };
-        let steps = Steps { programs: ProgramSet::default(), screen };
+        let steps = Steps { sums: ProgramSet::default(), ratio: ProgramSet::default(), screen };
         Ok(Self { steps, taken: None, all: None })
     }
 
@@ -118,7 +141,8 @@ impl Overlay {
         variant: Variant,
         needs: Needs,
     ) -> Result<(), Error> {
-        self.steps.programs.ensure(gl, caps, OVERLAY_PROGRAMS, variant, needs)
+        self.steps.sums.ensure(gl, caps, SUM_PROGRAMS, variant, needs)?;
+        self.steps.ratio.ensure(gl, caps, RATIO_PROGRAM, variant, needs)
     }
 
     /// Multiplies the host's pixels by the factor, where one batch has all lights.
@@ -208,7 +232,8 @@ impl Overlay {
     pub(crate) unsafe fn delete(&mut self, gl: &glow::Context) {
         // SAFETY: the caller's.
         unsafe {
-            self.steps.programs.delete(gl);
+            self.steps.sums.delete(gl);
+            self.steps.ratio.delete(gl);
             self.steps.screen.delete(gl);
             let targets = [&mut self.taken, &mut self.all];
             targets.into_iter().filter_map(Option::take).for_each(|target| target.delete(gl));
@@ -218,7 +243,8 @@ impl Overlay {
 
 /// What every pass draws with.
 struct Steps {
-    programs: ProgramSet,
+    sums: ProgramSet,
+    ratio: ProgramSet,
     screen: TileMesh,
 }
 
@@ -235,8 +261,12 @@ impl Steps {
             if !self.screen.bind(drawing, step.tiles)? {
                 return Ok(());
             }
-            let programs = self.programs.of(Variant::of(&drawing.frame.surface));
-            let program = programs[step.pass.index(step.lights)].as_ref().expect("compiled for the frame");
+            let variant = Variant::of(&drawing.frame.surface);
+            let program = match step.pass {
+                Pass::Ratio => &self.ratio.of(variant)[0],
+                pass => &self.sums.of(variant)[pass.index(step.lights, drawing.needs.falloff)],
+            };
+            let program = program.as_ref().expect("compiled for the frame");
             // The host's framebuffer has the viewport's corner at (x, y), antumbra's own at (0, 0).
             match step.to {
                 To::Sum(target) => {
@@ -244,7 +274,7 @@ impl Steps {
                     gl.viewport(0, 0, width, height);
                     Blend::Add.apply(gl, caps);
                     drawing.use_program(program, drawing.mask_offset());
-                    self.set(drawing, program, step, [0, 0]);
+                    set(drawing, program, step, [0, 0]);
                     self.screen.draw(gl);
                 }
                 To::Host(host) => {
@@ -252,9 +282,9 @@ impl Steps {
                     gl.viewport(x, y, width, height);
                     Blend::Multiply.apply(gl, caps);
                     drawing.use_program(program, [0, 0]);
-                    self.set(drawing, program, step, [-x, -y]);
+                    set(drawing, program, step, [-x, -y]);
                     gl.uniform_1_f32(program.uniforms.gamma.as_ref(), host.encoding.gamma());
-                    let others = OtherBuffers::leave_alone(gl, caps, host.framebuffer);
+                    let others = OtherBuffers::leave_alone(drawing, host.framebuffer);
                     self.screen.draw(gl);
                     if let Some(others) = others {
                         others.restore(gl);
@@ -264,32 +294,32 @@ impl Steps {
         }
         Ok(())
     }
+}
 
-    /// Sets what the passes read beside the surface; `offset` leads from the target's pixels to the inputs' texels.
-    ///
-    /// # Safety
-    /// The program is the pass's, and in use.
-    unsafe fn set(&self, drawing: &Drawing<'_>, program: &Program, step: &Step<'_>, offset: [i32; 2]) {
-        let (gl, u, lights) = (drawing.gl, &program.uniforms, step.lights);
-        let locations = match step.pass {
-            Pass::Overlay | Pass::Taken => [&u.visibility_0, &u.visibility_1],
-            Pass::All | Pass::Ratio => [&u.taken, &u.all],
-        };
-        // SAFETY: the caller's.
-        unsafe {
-            for (unit, (location, target)) in (3..).zip(locations.into_iter().zip(step.inputs)) {
-                if let Some(target) = target {
-                    gl.uniform_1_i32(location.as_ref(), unit);
-                    bind_texture(gl, unit as u32, drawing.frame.surface.samples, target.texture);
-                }
+/// Sets what the passes read beside the surface; `offset` leads from the target's pixels to the inputs' texels.
+///
+/// # Safety
+/// The program is the pass's, and in use.
+unsafe fn set(drawing: &Drawing<'_>, program: &Program, step: &Step<'_>, offset: [i32; 2]) {
+    let (gl, u, lights) = (drawing.gl, &program.uniforms, step.lights);
+    let locations = match step.pass {
+        Pass::Overlay | Pass::Taken => [&u.visibility_0, &u.visibility_1],
+        Pass::All | Pass::Ratio => [&u.taken, &u.all],
+    };
+    // SAFETY: the caller's.
+    unsafe {
+        for (unit, (location, target)) in (3..).zip(locations.into_iter().zip(step.inputs)) {
+            if let Some(target) = target {
+                gl.uniform_1_i32(location.as_ref(), unit);
+                bind_texture(gl, unit as u32, drawing.frame.surface.samples, target.texture);
             }
-            gl.uniform_2_i32(u.visibility_offset.as_ref(), offset[0], offset[1]);
-            gl.uniform_3_f32_slice(u.ambient.as_ref(), &drawing.frame.ambient.to_array());
-            if !lights.is_empty() {
-                let data = packed(lights, drawing.view);
-                gl.uniform_4_f32_slice(u.lights.as_ref(), bytemuck::cast_slice(&data));
-                gl.uniform_1_i32(u.light_count.as_ref(), lights.len() as i32);
-            }
+        }
+        gl.uniform_2_i32(u.visibility_offset.as_ref(), offset[0], offset[1]);
+        gl.uniform_3_f32_slice(u.ambient.as_ref(), &drawing.frame.ambient.to_array());
+        if !lights.is_empty() {
+            let data = packed(lights, drawing.view);
+            gl.uniform_4_f32_slice(u.lights.as_ref(), bytemuck::cast_slice(&data));
+            gl.uniform_1_i32(u.light_count.as_ref(), lights.len() as i32);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a renderer tells its host.
 
 use super::{BATCH_LIGHTS, GROUP_LIGHTS};
+use crate::input::Texture;
 
 /// What the last frame did, and what it could leave undone. A point that stands for a light with an area counts as a
 /// light.
@@ -33,6 +34,7 @@ pub(crate) struct Counts {
 
 /// The visibility of up to [`BATCH_LIGHTS`] lights, for the host's own lighting.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct MaskBatch {
     /// Index in [`crate::Frame::lights`] of the first light.
     pub first_light: usize,
@@ -42,6 +44,7 @@ pub struct MaskBatch {
     /// `first_light + i` is channel `i % 4` of texture `i / 4`. One texel a pixel of the viewport
     /// (`texelFetch` with window position minus the viewport's corner), 1 where the light arrives;
     /// multisampled if the surface is. They hold what *cast* shadows
-    /// leave: where the surface faces away from the light, it is the host's n·l that is zero.
-    pub textures: [glow::Texture; BATCH_LIGHTS / GROUP_LIGHTS],
+    /// leave: where the surface faces away from the light it is the host's n·l that is zero, and the mask says what other
+    /// objects hide; `map` does not look there, and leaves 1.
+    pub textures: [Texture; BATCH_LIGHTS / GROUP_LIGHTS],
 }

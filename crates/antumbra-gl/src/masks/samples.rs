@@ -4,7 +4,7 @@
 
 use crate::input::{Area, Light, Pattern};
 use antumbra_math::Light as Place;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The golden ratio's fractional part: the steps of the most even lattice in one dimension.
@@ -19,19 +19,11 @@ const PLASTIC: f64 = 0.754_877_666_246_692_7;
 /// through the ball then passes the same amount, π, so that points which shine to all sides alike, seen from
 /// anywhere outside, look like a ball of even radiance, without bias. Points on its surface would do too, but half
 /// of them face away. In directions they are a Fibonacci spiral. A single point is the centre.
-pub fn light_points(area: &Area, count: u32, pattern: Pattern, mut each: impl FnMut(DVec3)) {
+fn light_points(area: &Area, count: u32, pattern: Pattern, mut each: impl FnMut(DVec3)) {
     if count == 1 && *area != Area::None {
         return each(DVec3::ZERO);
     }
-    let (right, up) = match *area {
-        Area::None => return,
-        Area::Sphere { radius } => (DVec3::X * radius, DVec3::Z * radius),
-        Area::Disc { direction, radius } => {
-            let right = direction.any_orthonormal_vector();
-            (right * radius, direction.cross(right) * radius)
-        }
-        Area::Rectangle { half_right, half_up, .. } => (half_right, half_up),
-    };
+    let Some([right, up]) = area.half_axes() else { return };
     let n = f64::from(count);
     for k in (0..count).map(f64::from) {
         let even = (k + 0.5) / n;
@@ -71,20 +63,6 @@ fn ball_radius(share: f64) -> f64 {
         if 2.0 * t - (2.0 * t).sin() < share * PI { low = t } else { high = t }
     }
     (0.5 * (low + high)).sin()
-}
-
-/// What a point of a light sends to a surface point with unit normal `normal`, in units of what a point at the
-/// light's centre sends straight down: cosine at the receiver, cosine at a flat light (`emitter` is the unit normal of
-/// the side that shines and 1; w is 0 for a ball, whose points shine to all sides alike) and falloff with the square
-/// of the distance. The twin of `sample_weight` in `samples.glsl`.
-pub fn sample_weight(point: Vec3, center: Vec3, emitter: glam::Vec4, position: Vec3, normal: Vec3) -> f32 {
-    let to_point = point - position;
-    let square = to_point.dot(to_point).max(1e-30);
-    let direction = to_point / square.sqrt();
-    let received = normal.dot(direction).max(0.0);
-    let sent = if emitter.w > 0.5 { (-direction).dot(emitter.truncate()).max(0.0) } else { 1.0 };
-    let to_center = center - position;
-    received * sent * (to_center.dot(to_center) / square)
 }
 
 /// Appends the hard lights that stand for `light`: itself if it has no area.

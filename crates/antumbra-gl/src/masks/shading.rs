@@ -3,11 +3,12 @@
 /// GLSL (330 and 300 es) of what arrives from a light without occluders, for a host's own fragment shader:
 ///
 /// ```glsl
-/// vec3 irradiance(vec4 place, vec4 color, vec4 cone, vec4 attenuation, vec3 position, vec3 normal);
+/// vec3 antumbra_irradiance(AntumbraLight light, vec3 position, vec3 normal);
 /// ```
 ///
-/// The vectors are those of [`crate::ShaderLight`], the spaces the caller's. With `BALL_LIGHTS` defined before it the
-/// lights may be balls; with `FLAT_LIGHTS` discs and rectangles too, and the function takes `vec4 right, vec4 up`
-/// after `attenuation`. Both cost more. Exact, the part of a light below the surface's horizon cut off.
+/// `AntumbraLight` is [`crate::ShaderLight`], vector by vector; the space is the caller's. Every name in it begins with
+/// `antumbra_`, `Antumbra` or `ANTUMBRA_`. The lights are points, spots and suns; with `ANTUMBRA_BALL_LIGHTS` defined before
+/// it they may be balls, with `ANTUMBRA_FLAT_LIGHTS` discs and rectangles too, and with `ANTUMBRA_FALLOFF` they may have a
+/// range and any [`crate::Falloff`]. Each costs more. Exact, the part of a light below the surface's horizon cut off.
 pub const IRRADIANCE_GLSL: &str =
     concat!(include_str!("../shaders/area.glsl"), include_str!("../shaders/lights.glsl"));

@@ -3,7 +3,7 @@
 use super::Renderer;
 use super::drawing::Hands;
 use super::plan::{FramePlan, Purpose};
-use crate::gl::StateGuard;
+use crate::gl::{StateGuard, bound_framebuffer};
 use crate::input::{Error, Frame, LightFault};
 use crate::masks::DepthMap;
 
@@ -20,17 +20,21 @@ impl Renderer {
     /// # Errors
     /// [`Error::BadLight`] for a light that the frame does not have, and the errors of [`Self::masks`].
     pub fn depth_map(&mut self, frame: &Frame<'_>, light: usize) -> Result<Option<DepthMap>, Error> {
-        let plan = FramePlan::new(frame, Purpose::Map, &self.manner, &mut self.centers)?;
+        let gl = self.gl.clone();
+        // SAFETY: a query; the context is current, as the type's documentation demands.
+        let bound = unsafe { bound_framebuffer(&gl) };
+        let _guard = StateGuard::new(&gl, self.manner.caps, self.host_state);
+        // SAFETY: the guard is alive, and whoever made the handles of textures vouches for them.
+        let frame = unsafe { self.with_depth(frame, bound)? };
+        let plan = FramePlan::new(&frame, Purpose::Map, &self.manner, &mut self.centers)?;
         let Some(asked) = frame.lights.get(light) else {
             return Err(Error::BadLight { index: light, fault: LightFault::Missing });
         };
         if !self.manner.technique.has_maps() {
             return Ok(None);
         }
-        let gl = self.gl.clone();
-        let _guard = StateGuard::new(&gl, self.manner.caps);
         let stats = self.stats;
-        // SAFETY: the guard is alive, and the frame was checked.
+        // SAFETY: as above, and the frame was checked.
         let prepared = unsafe { self.prepare(&plan) };
         self.stats = stats;
         prepared?;

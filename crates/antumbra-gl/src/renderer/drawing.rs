@@ -3,8 +3,8 @@
 use super::Renderer;
 use super::plan::{FramePlan, Programs};
 use crate::gl::{Drawing, OtherBuffers};
-use crate::input::{Error, Frame, Light};
-use crate::masks::{Batch, Counts, HostPicture, Masks, Points, Sampler, Stats};
+use crate::input::{Error, Frame};
+use crate::masks::{BATCH_LIGHTS, Batch, Counts, HostPicture, Masks, Points, Sampler, Stats};
 use crate::technique::{Method, Pass};
 use glow::HasContext;
 
@@ -46,7 +46,7 @@ impl Renderer {
         // SAFETY: the caller's.
         unsafe {
             self.compile(&plan.programs)?;
-            let drawing = plan.drawing(&self.gl, &self.manner.caps);
+            let drawing = plan.drawing(&self.gl, &self.manner.caps, self.host_state);
             if let (Some(sampling), Some(sampler)) = (plan.sampling, &mut self.sampler) {
                 self.points.of_lights(&plan.frame, sampling);
                 sampler.prepare(&drawing)?;
@@ -64,23 +64,21 @@ impl Renderer {
     pub(super) fn hands<'a>(&'a mut self, plan: &'a FramePlan<'_>) -> Hands<'a> {
         let is_sampled = plan.sampling.is_some();
         let lights = if is_sampled { &self.points.lights[..] } else { plan.frame.lights };
-        let drawing = plan.drawing(&self.gl, &self.manner.caps);
+        let drawing = plan.drawing(&self.gl, &self.manner.caps, self.host_state);
         let drawing = Drawing { frame: Frame { lights, ..drawing.frame }, ..drawing };
         let (method, pass) = self.methods.begin(&self.manner.technique, drawing);
         let sampler = self.sampler.as_mut().filter(|_| is_sampled);
         Hands { method, pass, masks: &mut self.masks, sampler, points: &self.points }
     }
 
-    /// Draws the visibility of one batch of lights, the first of which is the frame's light `first`.
+    /// Draws the visibility of one batch of the frame's lights.
     ///
     /// # Safety
     /// As for [`Self::prepare`], which was called for the frame.
-    pub(super) unsafe fn draw_visibility(
-        &mut self,
-        plan: &FramePlan<'_>,
-        first: usize,
-        lights: &[Light],
-    ) -> Result<(), Error> {
+    pub(super) unsafe fn draw_visibility(&mut self, plan: &FramePlan<'_>, batch: usize) -> Result<(), Error> {
+        let first = batch * BATCH_LIGHTS;
+        let lights = &plan.frame.lights[first..];
+        let lights = &lights[..lights.len().min(BATCH_LIGHTS)];
         let Hands { method, pass, masks, sampler, points } = self.hands(plan);
         // SAFETY: the caller's.
         unsafe {
@@ -111,7 +109,7 @@ impl Renderer {
         unsafe {
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
             gl.viewport(x, y, width, height);
-            let others = OtherBuffers::leave_alone(gl, *pass.caps, host.framebuffer);
+            let others = OtherBuffers::leave_alone(&pass, host.framebuffer);
             let painted = painter.paint(&pass, host, &mut masks.tiles);
             if let Some(others) = others {
                 gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);

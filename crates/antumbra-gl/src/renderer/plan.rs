@@ -1,7 +1,7 @@
 //! What a frame needs, decided once.
 
 use crate::gl::{Caps, Drawing, Needs, TargetFormat, Variant};
-use crate::input::{Area, Error, Frame, Light, Soft, Surface, Unsupported};
+use crate::input::{Area, Error, Frame, HostState, Light, Soft, Surface, Unsupported};
 use crate::masks::{BATCH_LIGHTS, Sampling};
 use crate::screen::View;
 use crate::technique::Technique;
@@ -71,7 +71,7 @@ impl<'a> FramePlan<'a> {
             paints,
             sampling,
             programs: Programs::new(manner, &frame.surface, frame.lights, sampling.is_some()),
-            format: if has_areas && caps.float_targets() {
+            format: if has_areas && caps.half_targets() {
                 TargetFormat::Rgba16F
             } else {
                 TargetFormat::Rgba8
@@ -82,8 +82,13 @@ impl<'a> FramePlan<'a> {
 
 impl FramePlan<'_> {
     /// The frame as it is.
-    pub(super) fn drawing<'a>(&'a self, gl: &'a glow::Context, caps: &'a Caps) -> Drawing<'a> {
-        Drawing { gl, caps, frame: self.frame, view: &self.view }
+    pub(super) fn drawing<'a>(
+        &'a self,
+        gl: &'a glow::Context,
+        caps: &'a Caps,
+        host: HostState,
+    ) -> Drawing<'a> {
+        Drawing { gl, caps, host, frame: self.frame, view: &self.view, needs: self.programs.overlay }
     }
 }
 

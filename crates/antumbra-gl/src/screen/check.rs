@@ -19,15 +19,24 @@ pub(super) fn check(frame: &Frame<'_>, max_texture_size: u32) -> Result<(), Erro
     if projection.determinant() == 0.0 {
         return Err(Error::BadFrame(FrameFault::Projection));
     }
-    let [x, y, width, height] = frame.viewport;
-    let limit = max_texture_size as i32;
-    if width <= 0 || height <= 0 || width > limit || height > limit || x < 0 || y < 0 {
-        return Err(Error::BadFrame(FrameFault::Viewport));
-    }
+    check_viewport(frame.viewport, max_texture_size).map_err(Error::BadFrame)?;
     if frame.surface.samples == 0 {
         return Err(Error::BadFrame(FrameFault::Samples));
     }
     check_scenery(frame)
+}
+
+/// Whether textures can be as large as a viewport.
+///
+/// # Errors
+/// [`FrameFault::Viewport`].
+pub(crate) fn check_viewport(
+    [x, y, width, height]: [i32; 4],
+    max_texture_size: u32,
+) -> Result<(), FrameFault> {
+    let limit = max_texture_size as i32;
+    let fits = width > 0 && height > 0 && width <= limit && height <= limit && x >= 0 && y >= 0;
+    if fits { Ok(()) } else { Err(FrameFault::Viewport) }
 }
 
 /// Lights, what blocks them, and ambient light.

@@ -7,6 +7,7 @@ mod surface;
 mod tiles;
 mod view;
 
+pub(crate) use check::check_viewport;
 pub(crate) use half_spaces::{hides_its_own_shadow, seen_half_spaces};
 pub(crate) use proxy::{ProxyBuilder, crossing, nearest_end};
 pub(crate) use tiles::TileGrid;

@@ -42,7 +42,7 @@ float half_plane_coverage(float value, float slope_x, float slope_y) {
 
 // An edge across a pixel: x the area on its inner side, yz the change of the distance inwards for
 // one pixel to the right and one up.
-vec3 pixel_edge(float value, vec3 gradient, Footprint footprint) {
+vec3 edge_of(float value, vec3 gradient, Footprint footprint) {
     vec2 slope = vec2(dot(gradient, footprint.dx), dot(gradient, footprint.dy));
     return vec3(half_plane_coverage(value, slope.x, slope.y), slope);
 }

@@ -4,16 +4,16 @@
 // TAKEN:   what shadows take, to be added up over the batches.
 // ALL:     what the lights send, to be added up over the batches, where shadows take anything.
 
-#define LIGHT_VECTORS 6
+#define LIGHT_VECTORS 7
 
 uniform vec4 u_lights[BATCH_LIGHTS * LIGHT_VECTORS];  // view space
 uniform int u_light_count;
 
-#ifdef FLAT_LIGHTS
-#define LIGHT(i) u_lights[i], u_lights[i + 1], u_lights[i + 2], u_lights[i + 3], u_lights[i + 4], u_lights[i + 5]
-#else
-#define LIGHT(i) u_lights[i], u_lights[i + 1], u_lights[i + 2], u_lights[i + 3]
-#endif
+AntumbraLight light_at(int i) {
+    int at = i * LIGHT_VECTORS;
+    return AntumbraLight(u_lights[at], u_lights[at + 1], u_lights[at + 2], u_lights[at + 3], u_lights[at + 4],
+                         u_lights[at + 5], u_lights[at + 6]);
+}
 
 #ifdef ALL
 uniform highp SURFACE_SAMPLER u_taken;
@@ -48,7 +48,7 @@ void main() {
         if (i >= u_light_count) {
             break;
         }
-        vec3 e = irradiance(LIGHT(i * LIGHT_VECTORS), s.position, normal);
+        vec3 e = antumbra_irradiance(light_at(i), s.position, normal);
         all += e;
         taken += e * (1.0 - visibility[i]);
     }

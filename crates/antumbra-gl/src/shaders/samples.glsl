@@ -1,4 +1,4 @@
-// What a point of a light sends to the surface. Twin: antumbra_gl::sample_weight.
+// What a point of a light sends to the surface. Twin: twins::samples.
 
 // In units of what a point at the light's centre sends straight down. `emitter`: the normal of the side of a flat
 // light that shines, and 1; w is 0 for a ball, whose points shine to all sides alike.

@@ -108,7 +108,7 @@ pub(crate) fn caster_of(occluder: &Occluder) -> Option<Caster<'static>> {
             let normal = (c - a).cross(b - a).normalize_or_zero();
             (&unit.triangle, DMat4::from_mat3_translation(DMat3::from_cols(b - a, normal, c - a), a))
         }
-        Shape::Plane(_) | Shape::Sphere(_) | Shape::Disc(_) | Shape::Cone(_) => return None,
+        _ => return None,
     };
     // A size of zero, an infinity or a NaN has no inverse.
     let casts = model.is_finite() && model.determinant() != 0.0;

@@ -62,11 +62,9 @@ pub(crate) trait Behavior {
         false
     }
 
-    /// Whether it looks at several occluders of an area light at once, with the programs of
-    /// [`When::BallsExactly`] and [`When::FlatsExactly`].
+    /// Whether it looks at several occluders of an area light at once, with the programs of [`When::exactly`].
     ///
-    /// [`When::BallsExactly`]: crate::gl::When::BallsExactly
-    /// [`When::FlatsExactly`]: crate::gl::When::FlatsExactly
+    /// [`When::exactly`]: crate::gl::When::exactly
     fn is_exact(&self) -> bool {
         false
     }

@@ -1,9 +1,9 @@
 //! Frames that are not frames: a clear error, and nothing drawn.
 
 use crate::context::in_each_api;
-use crate::shot::{Canvas, Shot};
+use crate::shot::{Canvas, Shot, each_batch};
 use crate::world::World;
-use antumbra_gl::{Encoding, Error, Frame, Light, NO_SHADOW, Occluder, Renderer, Surface};
+use antumbra_gl::{Encoding, Error, Falloff, Frame, Light, NO_SHADOW, Occluder, Renderer};
 use glam::{DMat4, DVec3, DVec4, Vec3};
 
 /// Frames that are refused, and a word of what the error says.
@@ -16,7 +16,7 @@ fn bad_frames<'w>(shot: &Shot<'w>, max_samples: u32) -> Vec<(&'static str, Frame
         frame
     };
     let (view, projection) = (good.camera.view, good.camera.projection);
-    let part = |viewport| Frame { viewport, ..good };
+    let part = |viewport| good.viewport(viewport);
     let samples = |samples| {
         let mut frame = good;
         frame.surface.samples = samples;
@@ -41,9 +41,9 @@ fn bad_frames<'w>(shot: &Shot<'w>, max_samples: u32) -> Vec<(&'static str, Frame
         ("samples", samples(0)),
         ("samples", samples(max_samples + 1)),
         ("samples", samples(u32::MAX)),
-        ("ambient", Frame { ambient: Vec3::NAN, ..good }),
-        ("ambient", Frame { ambient: Vec3::NEG_ONE, ..good }),
-        ("ambient", Frame { ambient: Vec3::INFINITY, ..good }),
+        ("ambient", good.ambient(Vec3::NAN)),
+        ("ambient", good.ambient(Vec3::NEG_ONE)),
+        ("ambient", good.ambient(Vec3::INFINITY)),
     ]
 }
 
@@ -62,7 +62,7 @@ fn bad_frames_are_refused_and_nothing_is_drawn() {
             };
             refused(renderer.overlay(&frame, Encoding::Linear).expect_err(word));
             let mut shaded = 0;
-            refused(renderer.masks(&frame, |_| shaded += 1).expect_err(word));
+            refused(each_batch(&mut renderer, &frame, |_| shaded += 1).expect_err(word));
             assert_eq!(shaded, 0, "no mask is handed out");
             gl.assert_no_complaint(word);
         }
@@ -89,12 +89,12 @@ fn bad_lights_are_refused_by_number() {
         let good = Light::point(DVec3::Y * 5.0, Vec3::ONE);
         let spot = |inner, outer| Light::spot(DVec3::Y * 5.0, DVec3::NEG_Y, inner, outer, Vec3::ONE);
         let bad = [
-            ("intensity", Light { intensity: Vec3::NAN, ..good }),
-            ("intensity", Light { intensity: Vec3::INFINITY, ..good }),
-            ("intensity", Light { intensity: Vec3::new(1.0, -1.0, 1.0), ..good }),
-            ("falloff", Light { attenuation: [0.0; 3], ..good }),
-            ("falloff", Light { attenuation: [0.0, f32::NAN, 1.0], ..good }),
-            ("falloff", Light { attenuation: [-1.0, 0.0, 1.0], ..good }),
+            ("intensity", good.with_intensity(Vec3::NAN)),
+            ("intensity", good.with_intensity(Vec3::INFINITY)),
+            ("intensity", good.with_intensity(Vec3::new(1.0, -1.0, 1.0))),
+            ("falloff", good.with_falloff(Falloff::classic(0.0, 0.0, 0.0))),
+            ("falloff", good.with_falloff(Falloff::classic(0.0, f32::NAN, 1.0))),
+            ("falloff", good.with_falloff(Falloff::classic(-1.0, 0.0, 1.0))),
             ("half-angles", spot(f32::NAN, 0.5)),
             ("half-angles", spot(0.1, f32::NAN)),
             ("half-angles", spot(0.6, 0.5)),
@@ -104,14 +104,16 @@ fn bad_lights_are_refused_by_number() {
             let mut lights = world.lights.clone();
             let at = lights.len();
             lights.push(light);
-            let frame = Frame { lights: &lights, ..shot.frame() };
-            for result in [renderer.overlay(&frame, Encoding::Linear), renderer.masks(&frame, |_| {})] {
+            let frame = shot.frame().lights(&lights);
+            for result in
+                [renderer.overlay(&frame, Encoding::Linear), each_batch(&mut renderer, &frame, |_| {})]
+            {
                 let named = |e: &Error| matches!(e, Error::BadLight { index, fault } if *index == at && fault.to_string().contains(word));
                 assert!(result.as_ref().is_err_and(named), "{light:?}: {result:?}");
             }
         }
         let occluders = [Occluder::sphere(DVec3::Y, 1.0).with_id(NO_SHADOW)];
-        let refused = renderer.overlay(&Frame { occluders: &occluders, ..shot.frame() }, Encoding::Linear);
+        let refused = renderer.overlay(&shot.frame().occluders(&occluders), Encoding::Linear);
         assert!(
             matches!(refused, Err(Error::BadFrame(why)) if why.to_string().contains("id")),
             "{refused:?}"
@@ -127,7 +129,7 @@ fn multisampled_surfaces_need_sample_shading() {
         let shot = Shot::new(gl, &world);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         if !gl.is_desktop() {
-            let surface = Surface { samples: 4, ..shot.frame().surface };
+            let surface = shot.frame().surface.with_samples(4);
             let refused = renderer.warm_up(&surface, &[]);
             assert!(matches!(refused, Err(Error::Unsupported { .. })), "{refused:?}");
             assert_eq!(renderer.caps().max_samples, 1, "and the caps say so");

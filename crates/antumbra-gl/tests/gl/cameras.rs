@@ -9,8 +9,7 @@ use antumbra_scene::Scene;
 use glam::camera::rh::proj;
 use glam::{DMat4, DVec3, DVec4};
 
-pub(crate) const REVERSED: DepthFormat =
-    DepthFormat { bits: 24, float: true, background: 0.0, zero_to_one: true };
+pub(crate) const REVERSED: DepthFormat = DepthFormat::float().reversed().zero_to_one();
 
 /// Every projection that hosts use, with what its depth buffer is like.
 pub(crate) fn cameras(world: &World) -> Vec<(&'static str, Camera, DepthFormat)> {
@@ -47,7 +46,7 @@ pub(crate) fn cameras(world: &World) -> Vec<(&'static str, Camera, DepthFormat)>
         ("orthographic off-centre", shift * flat(0.1, 40.0), usual),
         ("orthographic reversed", reverse * flat(0.1, 40.0), REVERSED),
     ]
-    .map(|(name, projection, format)| (name, Camera { view: world.view, projection }, format))
+    .map(|(name, projection, format)| (name, Camera::new(world.view, projection), format))
     .into()
 }
 

@@ -1,10 +1,10 @@
 //! The composite method: the shapes of `antumbra_math::composite` in pixels, painted or taking light.
 
 use crate::context::{Gl, in_each_api};
-use crate::shot::{Canvas, Shot, VIEWPORT, texture};
+use crate::shot::{Canvas, Shot, VIEWPORT, bare, texture};
 use crate::world::World;
 use antumbra_gl::technique::composite::{Options, Shade, SphereForm};
-use antumbra_gl::{Encoding, Frame, Light, Occluder, Receiver, ReceiverShape, Renderer, Surface, Technique};
+use antumbra_gl::{Encoding, Frame, Light, Occluder, Receiver, ReceiverShape, Renderer, Technique};
 use antumbra_math::composite::{CompositeShadow, cast};
 use antumbra_math::plane_shadow::PlaneFrame;
 use antumbra_math::{Plane, Rectangle};
@@ -61,7 +61,7 @@ rotation = [1.0, 0.0, 0.0, 0.0]
 const FLOOR: Plane = Plane { normal: DVec3::Y, offset: 0.0 };
 
 pub(crate) fn floor(id: u32) -> [Receiver; 1] {
-    [Receiver { shape: ReceiverShape::Plane(FLOOR), id }]
+    [Receiver::new(ReceiverShape::Plane(FLOOR)).with_id(id)]
 }
 
 pub(crate) fn technique(shade: Shade, sphere: SphereForm) -> Technique {
@@ -146,7 +146,8 @@ fn masks_are_the_published_shapes() {
         let shot = Shot::new(gl, &world);
         for form in [SphereForm::Circle, SphereForm::Tangent] {
             let mut renderer = renderer(gl, technique(Shade::Physical, form));
-            let frame = Frame { receivers: &floor(1), ..shot.frame() };
+            let receivers = floor(1);
+            let frame = shot.frame().receivers(&receivers);
             let masks = shot.masks(&mut renderer, &frame);
             assert_eq!(renderer.stats().pairs, 5 * world.lights.len(), "pairs; the floor is no caster");
             let (mut dark, mut square, mut edges) = (0, 0.0, 0.0);
@@ -223,7 +224,8 @@ fn paint_is_exactly_255_k() {
     in_each_api(|gl| {
         let world = World::parse(SCENE);
         let shot = Shot::new(gl, &world);
-        let frame = Frame { receivers: &floor(1), ..shot.frame() };
+        let receivers = floor(1);
+        let frame = shot.frame().receivers(&receivers);
         let all: Vec<_> = world.lights.iter().map(|l| shadows(&world, l, SphereForm::Tangent)).collect();
         let mut renderer = renderer(gl, Technique::parse("composite").expect("the defaults"));
         for (encoding, decode) in [(Encoding::Gamma(2.2), false), (Encoding::Linear, true)] {
@@ -279,7 +281,8 @@ fn nothing_darkens_twice() {
         let twice = [world.lights[0]; 2];
         let doubled = [world.occluders.clone(), world.occluders.clone()].concat();
         let reversed: Vec<Occluder> = world.occluders.iter().rev().copied().collect();
-        let frame = Frame { receivers: &floor(1), lights: &one, ..shot.frame() };
+        let receivers = floor(1);
+        let frame = shot.frame().receivers(&receivers).lights(&one);
         let mut paper = renderer(gl, technique(Shade::Paper, SphereForm::Tangent));
         let mut physical = renderer(gl, technique(Shade::Physical, SphereForm::Tangent));
         let encoding = Encoding::Gamma(2.2);
@@ -287,9 +290,9 @@ fn nothing_darkens_twice() {
         let masks = shot.masks(&mut physical, &frame);
         let whole = |masks: &[Vec<u8>], i: usize| masks[0][i] == 0 || masks[0][i] == 255;
         for (what, frame) in [
-            ("coincident lights", Frame { lights: &twice, ..frame }),
-            ("occluders twice", Frame { occluders: &doubled, ..frame }),
-            ("the other order", Frame { occluders: &reversed, ..frame }),
+            ("coincident lights", frame.lights(&twice)),
+            ("occluders twice", frame.occluders(&doubled)),
+            ("the other order", frame.occluders(&reversed)),
         ] {
             let again = painted(gl, &mut paper, &frame, encoding);
             for i in 0..again.len() {
@@ -317,18 +320,18 @@ fn shadows_stay_on_their_receiver() {
             let d = p - rectangle.center;
             d.x.abs() < 1.2 && d.z.abs() < 0.9
         };
-        let receivers = [Receiver { shape: ReceiverShape::Rectangle(rectangle), id: 1 }];
+        let receivers = [Receiver::new(ReceiverShape::Rectangle(rectangle)).with_id(1)];
         for form in
             [technique(Shade::Physical, SphereForm::Tangent), technique(Shade::Paper, SphereForm::Tangent)]
         {
             let mut renderer = renderer(gl, form);
-            let frame = Frame { receivers: &receivers, ..shot.frame() };
-            let depth_only = Surface { normals: None, ids: None, ..frame.surface };
-            let no_id = [Receiver { id: 0, ..receivers[0] }];
+            let frame = shot.frame().receivers(&receivers);
+            let depth_only = bare(&frame.surface);
+            let no_id = [receivers[0].with_id(0)];
             for (what, frame) in [
                 ("ids", frame),
-                ("a receiver without id", Frame { receivers: &no_id, ..frame }),
-                ("depth alone", Frame { surface: depth_only, ..frame }),
+                ("a receiver without id", frame.receivers(&no_id)),
+                ("depth alone", frame.surface(depth_only)),
             ] {
                 let masks = shot.masks(&mut renderer, &frame);
                 let picture = painted(gl, &mut renderer, &frame, Encoding::Gamma(2.2));
@@ -372,7 +375,8 @@ fn what_has_no_shadow_paints_nothing() {
         let mut polygons = Vec::new();
         for height in [6.0, 3.0, 2.0, 1.5, 1.0, 0.4, 0.0, -1.0, f64::NAN] {
             let lights = [Light::point(DVec3::new(2.5, height, 1.0), Vec3::ONE)];
-            let frame = Frame { lights: &lights, receivers: &floor(1), ..shot.frame() };
+            let receivers = floor(1);
+            let frame = shot.frame().lights(&lights).receivers(&receivers);
             let picture = painted(gl, &mut renderer, &frame, Encoding::Linear);
             polygons.push(renderer.stats().polygons);
             if height.is_nan() || height <= 0.4 {
@@ -382,13 +386,15 @@ fn what_has_no_shadow_paints_nothing() {
         assert!(polygons.is_sorted_by(|a, b| a >= b), "one after the other is lost: {polygons:?}");
         assert!(polygons[0] >= 6 && polygons[6] == 0, "all, and none: {polygons:?}");
         let off = [Light::point(DVec3::new(2.0, 5.0, 1.0), Vec3::ZERO)];
-        let frame = Frame { lights: &off, receivers: &floor(1), ..shot.frame() };
+        let receivers = floor(1);
+        let frame = shot.frame().lights(&off).receivers(&receivers);
         assert!(painted(gl, &mut renderer, &frame, Encoding::Linear) == host_colors(), "a light that is off");
         // From below the floor is seen from the side that has no light.
         let text = SCENE.replace("eye = [0.5, 5.0, 7.0]", "eye = [0.5, -5.0, 7.0]");
         let below = World::parse(&text);
         let shot = Shot::new(gl, &below);
-        let frame = Frame { receivers: &floor(1), ..shot.frame() };
+        let receivers = floor(1);
+        let frame = shot.frame().receivers(&receivers);
         assert!(painted(gl, &mut renderer, &frame, Encoding::Linear) == host_colors(), "the underside");
         assert!(
             shot.masks(&mut renderer, &frame).iter().flatten().all(|m| *m == 255),

@@ -4,14 +4,12 @@ use crate::composite::{SCENE, floor, renderer, technique};
 use crate::context::in_each_api;
 use crate::leaks::live;
 use crate::odd_host::OddHost;
-use crate::shot::{Canvas, Shot, VIEWPORT};
+use crate::shot::{Canvas, Shot, VIEWPORT, bare, each_batch};
 use crate::snapshot::{assert_same, snapshot};
 use crate::world::World;
 use antumbra_gl::Part;
 use antumbra_gl::technique::composite::{Shade, SphereForm};
-use antumbra_gl::{
-    Area, Encoding, Error, Frame, Light, Occluder, Receiver, ReceiverShape, Surface, Technique,
-};
+use antumbra_gl::{Area, Encoding, Error, Light, Occluder, Receiver, ReceiverShape, Technique};
 use antumbra_math::Rectangle;
 use glam::{DVec2, DVec3, Vec3};
 
@@ -28,28 +26,28 @@ fn what_it_cannot_do_is_refused_by_part() {
         let sunk = Occluder::sphere(DVec3::ZERO, 0.5);
         let two = [floor(1)[0], floor(9)[0]];
         let flat = Rectangle { center: DVec3::ZERO, half_right: DVec3::X, half_forward: DVec3::ZERO };
-        let nowhere = [Receiver { shape: ReceiverShape::Rectangle(flat), id: 1 }];
-        let frame = Frame { receivers: &floor(1), ..shot.frame() };
+        let nowhere = [Receiver::new(ReceiverShape::Rectangle(flat)).with_id(1)];
+        let receivers = floor(1);
+        let frame = shot.frame().receivers(&receivers);
+        let (with_sun, with_lamp) = ([point, sun], [point, lamp]);
+        let (sunk, table, tilted) = ([sunk], [table], [world.occluders[1], tilted]);
         let cases = [
-            ("paper", Frame { lights: &[point, sun], ..frame }, Part::Light(1), "point lights alone"),
-            ("physical", Frame { lights: &[point, lamp], ..frame }, Part::Light(1), "an area"),
-            ("paper", Frame { receivers: &[], ..frame }, Part::Receivers, "needs one plane"),
-            ("paper", Frame { receivers: &two, ..frame }, Part::Receivers, "several"),
-            ("paper", Frame { receivers: &nowhere, ..frame }, Part::Receivers, "some extent"),
-            ("physical", Frame { occluders: &[sunk], ..frame }, Part::Occluder(0), "passes through"),
-            ("paper", Frame { occluders: &[table], ..frame }, Part::Occluder(0), "discs, triangles"),
-            (
-                "paper",
-                Frame { occluders: &[world.occluders[1], tilted], ..frame },
-                Part::Occluder(1),
-                "parallel",
-            ),
+            ("paper", frame.lights(&with_sun), Part::Light(1), "point lights alone"),
+            ("physical", frame.lights(&with_lamp), Part::Light(1), "an area"),
+            ("paper", frame.receivers(&[]), Part::Receivers, "needs one plane"),
+            ("paper", frame.receivers(&two), Part::Receivers, "several"),
+            ("paper", frame.receivers(&nowhere), Part::Receivers, "some extent"),
+            ("physical", frame.occluders(&sunk), Part::Occluder(0), "passes through"),
+            ("paper", frame.occluders(&table), Part::Occluder(0), "discs, triangles"),
+            ("paper", frame.occluders(&tilted), Part::Occluder(1), "parallel"),
         ];
         let _canvas = Canvas::new(gl);
         for (shade, frame, part, says) in cases {
             let technique = Technique::parse(&format!("composite:shade={shade}")).expect("a shade");
             let mut renderer = renderer(gl, technique);
-            for result in [renderer.overlay(&frame, Encoding::Linear), renderer.masks(&frame, |_| {})] {
+            for result in
+                [renderer.overlay(&frame, Encoding::Linear), each_batch(&mut renderer, &frame, |_| {})]
+            {
                 let Err(Error::Refused { technique: "composite", refusal }) = result else {
                     panic!("{says}: {result:?}");
                 };
@@ -62,7 +60,8 @@ fn what_it_cannot_do_is_refused_by_part() {
         let physical = Technique::parse("composite:shade=physical:sphere=circle").expect("options");
         assert_eq!(physical, technique(Shade::Physical, SphereForm::Circle), "read");
         assert_eq!(physical.to_string(), "composite:shade=physical:sphere=circle", "written");
-        let sunny = Frame { lights: &[sun], ..frame };
+        let these_lights = [sun];
+        let sunny = frame.lights(&these_lights);
         renderer(gl, physical)
             .overlay(&sunny, Encoding::Linear)
             .expect("physical shade takes any hard light");
@@ -88,21 +87,19 @@ fn the_host_finds_everything_as_it_was() {
         for shade in [Shade::Paper, Shade::Physical] {
             let mut renderer = renderer(gl, technique(shade, SphereForm::Tangent));
             check("set_technique");
-            let frame = Frame { receivers: &floor(1), ..shot.frame() };
-            let depth_only = Surface { normals: None, ids: None, ..frame.surface };
+            let receivers = floor(1);
+            let frame = shot.frame().receivers(&receivers);
+            let depth_only = bare(&frame.surface);
             let mut objects = Vec::new();
             // The kinds of surface compile in the first round.
             for _ in 0..3 {
-                for frame in [
-                    Frame { lights: few, ..frame },
-                    Frame { lights: few, surface: depth_only, ..frame },
-                    frame,
-                ] {
+                for frame in [frame.lights(few), frame.lights(few).surface(depth_only), frame] {
                     if shade == Shade::Paper || frame.lights.len() <= 8 {
                         renderer.overlay(&frame, Encoding::Gamma(2.2)).expect("the frame is right");
                         check("overlay");
                     }
-                    renderer.masks(&frame, |_| check("masks, in the host's closure")).expect("right");
+                    each_batch(&mut renderer, &frame, |_| check("masks, in the host's closure"))
+                        .expect("right");
                     check("masks");
                 }
                 objects.push(live(&gl.gl));
@@ -123,7 +120,8 @@ fn an_odd_host_gets_the_same_paint() {
     in_each_api(|gl| {
         let world = World::parse(SCENE);
         let shot = Shot::new(gl, &world);
-        let frame = Frame { receivers: &floor(1), ..shot.frame() };
+        let receivers = floor(1);
+        let frame = shot.frame().receivers(&receivers);
         let size = [VIEWPORT[2], VIEWPORT[3]];
         let [plain, odd] = [false, true].map(|is_odd| {
             let mut renderer = renderer(gl, Technique::parse("composite").expect("the defaults"));
@@ -157,10 +155,11 @@ fn steady_frames_allocate_nothing() {
             })
             .collect();
         let mut draw = |lights: &[Light]| {
-            let frame = Frame { lights, receivers: &floor(1), ..shot.frame() };
+            let receivers = floor(1);
+            let frame = shot.frame().lights(lights).receivers(&receivers);
             let counted = allocation_counter::measure(|| {
                 renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
-                renderer.masks(&frame, |_| {}).expect("the frame is right");
+                each_batch(&mut renderer, &frame, |_| {}).expect("the frame is right");
             });
             counted.count_total
         };

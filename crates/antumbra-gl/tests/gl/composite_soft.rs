@@ -3,17 +3,17 @@
 use crate::composite::{
     SCENE, floor, floor_frame, host_colors, painted, pixels, renderer, shadows, srgb_decoded, technique,
 };
-use crate::context::in_each_api;
+use crate::context::in_each_tier;
 use crate::leaks::live;
 use crate::odd_host::OddHost;
-use crate::shot::{Canvas, Shot, VIEWPORT, read_texture};
+use crate::shot::{Canvas, Shot, VIEWPORT, assert_needs_floats, each_batch, read_texture};
 use crate::snapshot::{assert_same, snapshot};
 use crate::world::World;
 use antumbra_gl::technique::composite::{Shade, SphereForm};
-use antumbra_gl::{Area, Encoding, Error, Frame, Light, Renderer, Technique, Tier, sample_weight};
+use antumbra_gl::{Area, Encoding, Light, Renderer, Technique};
 use antumbra_gl::{Component, components};
 use antumbra_math::Light as Place;
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, Vec3};
 
 const BALL: Area = Area::Sphere { radius: 1.0 };
 
@@ -23,7 +23,7 @@ fn paper() -> Technique {
 
 fn moved(light: &Light, offset: DVec3) -> Light {
     let Place::Point { position } = light.place else { panic!("a point light") };
-    Light { place: Place::Point { position: position + offset }, area: Area::None, ..*light }
+    light.with_place(Place::Point { position: position + offset }).with_area(Area::None)
 }
 
 #[test]
@@ -53,28 +53,31 @@ fn components_are_the_centre_and_the_rim() {
 /// edges of parts cross: there the point light's shadow covers a pixel with one after the other.
 #[test]
 fn components_that_coincide_paint_the_hard_shadow() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let world = World::parse(SCENE);
         let shot = Shot::new(gl, &world);
         let soft: Vec<Light> = world.lights.iter().map(|light| light.with_area(BALL)).collect();
         let at = |offset| -> Vec<Component> {
-            (0..soft.len() * 2).map(|i| Component { light: i / 2, offset }).collect()
+            (0..soft.len() * 2).map(|i| Component::new(i / 2, offset)).collect()
         };
         let mut renderer = renderer(gl, paper());
-        let hard = Frame { receivers: &floor(1), ..shot.frame() };
+        let receivers = floor(1);
+        let hard = shot.frame().receivers(&receivers);
         for encoding in [Encoding::Linear, Encoding::Gamma(2.2)] {
             let expected = painted(gl, &mut renderer, &hard, encoding);
             assert_ne!(expected, host_colors(), "there are shadows");
-            let frame = Frame { lights: &soft, components: &at(DVec3::ZERO), ..hard };
+            let components = at(DVec3::ZERO);
+            let frame = hard.lights(&soft).components(&components);
             assert_eq!(painted(gl, &mut renderer, &frame, encoding), expected, "{encoding:?}");
-            if renderer.caps().tier == Tier::Es3 {
-                continue;
-            }
             let (hard, soft) = (&world.lights[..1], &soft[..1]);
-            let one = Frame { lights: hard, occluders: &world.occluders[1..2], ..frame };
+            let one = frame.lights(hard).occluders(&world.occluders[1..2]);
             let expected = painted(gl, &mut renderer, &one, encoding);
             assert_ne!(expected, host_colors(), "the disc's shadow is seen");
-            let frame = Frame { lights: soft, components: &at(DVec3::splat(1e-9)), ..one };
+            let components = at(DVec3::splat(1e-9));
+            let frame = one.lights(soft).components(&components);
+            if !gl.has_floats() {
+                return assert_needs_floats(&mut renderer, &frame);
+            }
             let nearly = painted(gl, &mut renderer, &frame, encoding);
             let worst =
                 nearly.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| a.abs_diff(*b)).max();
@@ -88,7 +91,7 @@ fn components_that_coincide_paint_the_hard_shadow() {
 /// So the umbra is 3/4, the penumbra of one component 1 - 1/16, of two 1 - 2/16.
 #[test]
 fn shades_worked_by_hand() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let world = World::parse(
             "ambient = [0, 0, 0]\n[camera]\neye = [0, 2, 2]\ntarget = [0, 0, 0]\n\
              [[light]]\nname = \"light\"\ntype = \"point\"\nposition = [0, 4, 0]\nintensity = 1\n\
@@ -97,13 +100,12 @@ fn shades_worked_by_hand() {
         );
         let shot = Shot::new(gl, &world);
         let lights = [world.lights[0].with_area(BALL)];
-        let sides = [1.0, 1.0, -1.0].map(|x| Component { light: 0, offset: DVec3::X * x });
-        let frame = Frame { lights: &lights, components: &sides, receivers: &floor(1), ..shot.frame() };
+        let sides = [1.0, 1.0, -1.0].map(|x| Component::new(0, DVec3::X * x));
+        let receivers = floor(1);
+        let frame = shot.frame().lights(&lights).components(&sides).receivers(&receivers);
         let mut renderer = renderer(gl, paper());
-        if renderer.caps().tier == Tier::Es3 {
-            let refused = renderer.overlay(&frame, Encoding::Linear);
-            assert!(matches!(refused, Err(Error::Unsupported { .. })), "needs float targets: {refused:?}");
-            return;
+        if !gl.has_floats() {
+            return assert_needs_floats(&mut renderer, &frame);
         }
         let sixteenths = |p: DVec3| {
             let inside = |x: f64| p.distance(DVec3::X * x) < 2.0 / 3.0;
@@ -137,17 +139,19 @@ fn shades_worked_by_hand() {
 /// Of any shapes and any number of components, more than go into one target.
 #[test]
 fn penumbrae_add_up_and_later_lights_cover_earlier_ones() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let mut world = World::parse(SCENE);
         world.lights[0].area = BALL;
         world.lights[2].area = Area::Disc { direction: DVec3::NEG_Y, radius: 1.2 };
         let shot = Shot::new(gl, &world);
-        let frame = Frame { receivers: &floor(1), ..shot.frame() };
+        let receivers = floor(1);
+        let frame = shot.frame().receivers(&receivers);
         for count in [2, 3, 9] {
             let technique = Technique::parse(&format!("composite:components={count}")).expect("an option");
             let mut renderer = renderer(gl, technique);
-            if renderer.caps().tier == Tier::Es3 {
-                return;
+            if !gl.has_floats() {
+                assert_needs_floats(&mut renderer, &frame);
+                continue;
             }
             let collections: Vec<Vec<_>> = (world.lights.iter())
                 .map(|light| {
@@ -195,21 +199,23 @@ fn penumbrae_add_up_and_later_lights_cover_earlier_ones() {
 /// What is painted is no visibility: masks are the average over the components, by what each sends.
 #[test]
 fn masks_of_painted_lights_are_the_average_over_the_components() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let mut world = World::parse(SCENE);
         world.lights.truncate(1);
         world.lights[0].area = BALL;
         let shot = Shot::new(gl, &world);
-        let frame = Frame { receivers: &floor(1), ..shot.frame() };
+        let receivers = floor(1);
+        let frame = shot.frame().receivers(&receivers);
         let mut renderer = renderer(gl, paper());
-        if renderer.caps().tier == Tier::Es3 {
-            return;
+        if !gl.has_floats() {
+            return assert_needs_floats(&mut renderer, &frame);
         }
         let mut mask: Vec<[f32; 4]> = Vec::new();
         let [_, _, width, height] = VIEWPORT;
-        renderer
-            .masks(&frame, |batch| mask = read_texture(&gl.gl, batch.textures[0], [width, height]))
-            .expect("the frame is right");
+        each_batch(&mut renderer, &frame, |batch| {
+            mask = read_texture(&gl.gl, batch.textures[0].glow(), [width, height])
+        })
+        .expect("the frame is right");
         let light = &world.lights[0];
         let of_components: Vec<_> = [0.0, 1.0, -1.0]
             .map(|x| moved(light, DVec3::X * x))
@@ -224,7 +230,11 @@ fn masks_of_painted_lights_are_the_average_over_the_components() {
         for (i, pixel) in pixels(&shot, hidden).enumerate() {
             let (Some(values), true) = (pixel.values, pixel.sure) else { continue };
             let point = shot.seen[i].expect("the floor").point.as_vec3();
-            let weight = |place| sample_weight(at(place), at(light.place), Vec4::ZERO, point, Vec3::Y);
+            // What a point sends to the floor: the cosine there over the squared distance.
+            let weight = |place| {
+                let to_point: Vec3 = at(place) - point;
+                to_point.y / to_point.length().powi(3)
+            };
             let weights: Vec<f32> = of_components.iter().map(|(place, _)| weight(*place)).collect();
             let taken: f32 =
                 weights.iter().zip(&values[0]).filter(|(_, hidden)| **hidden).map(|(w, _)| w).sum();
@@ -244,17 +254,18 @@ fn masks_of_painted_lights_are_the_average_over_the_components() {
 
 #[test]
 fn painting_collections_leaves_the_state_and_allocates_nothing() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let mut world = World::parse(SCENE);
         world.lights[0].area = BALL;
         world.lights[2].area = BALL;
         let shot = Shot::new(gl, &world);
-        let frame = Frame { receivers: &floor(1), ..shot.frame() };
+        let receivers = floor(1);
+        let frame = shot.frame().receivers(&receivers);
         let technique = Technique::parse("composite:components=6").expect("an option");
         let host = OddHost::new(gl, [VIEWPORT[2], VIEWPORT[3]]);
         let before = snapshot(gl);
         let mut renderer = renderer(gl, technique);
-        let float = renderer.caps().tier != Tier::Es3;
+        let float = gl.has_floats();
         for encoding in [Encoding::Linear, Encoding::Gamma(2.2)] {
             assert_eq!(renderer.overlay(&frame, encoding).is_ok(), float, "where there are float targets");
             gl.assert_no_complaint("painting a collection");
@@ -268,7 +279,7 @@ fn painting_collections_leaves_the_state_and_allocates_nothing() {
         if float {
             let draw = |renderer: &mut Renderer| {
                 renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
-                renderer.masks(&frame, |_| ()).expect("the frame is right");
+                each_batch(renderer, &frame, |_| ()).expect("the frame is right");
             };
             (0..4).for_each(|_| draw(&mut renderer));
             let steady = live(&gl.gl);
@@ -283,37 +294,35 @@ fn painting_collections_leaves_the_state_and_allocates_nothing() {
 /// Components that are nowhere, of lights that are not there, or of lights without area.
 #[test]
 fn odd_components_are_off() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let mut world = World::parse(SCENE);
         let hard = world.lights.clone();
         world.lights[0].area = BALL;
         let shot = Shot::new(gl, &world);
         // One shape and one light: no edges of parts cross.
-        let frame = Frame {
-            receivers: &floor(1),
-            occluders: &world.occluders[1..2],
-            lights: &world.lights[..1],
-            ..shot.frame()
-        };
+        let receivers = floor(1);
+        let frame =
+            shot.frame().receivers(&receivers).occluders(&world.occluders[1..2]).lights(&world.lights[..1]);
         let mut renderer = renderer(gl, paper());
-        if renderer.caps().tier == Tier::Es3 {
-            return;
+        if !gl.has_floats() {
+            return assert_needs_floats(&mut renderer, &frame.components(&[Component::new(0, DVec3::X)]));
         }
         let encoding = Encoding::Gamma(2.2);
-        let nowhere = |light| [DVec3::NAN, DVec3::INFINITY].map(|offset| Component { light, offset });
-        let expected = painted(gl, &mut renderer, &Frame { lights: &hard[..1], ..frame }, encoding);
+        let nowhere = |light| [DVec3::NAN, DVec3::INFINITY].map(|offset| Component::new(light, offset));
+        let expected = painted(gl, &mut renderer, &frame.lights(&hard[..1]), encoding);
         // The central component is there, and its umbra is as dark as ever.
-        let found = painted(gl, &mut renderer, &Frame { components: &nowhere(0), ..frame }, encoding);
+        let found = painted(gl, &mut renderer, &frame.components(&nowhere(0)), encoding);
         let worst = found.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(worst <= Some(1), "{worst:?}");
         let expected = painted(gl, &mut renderer, &frame, encoding);
         for light in [1, 3, usize::MAX] {
-            let frame = Frame { components: &nowhere(light), ..frame };
+            let components = nowhere(light);
+            let frame = frame.components(&components);
             assert_eq!(painted(gl, &mut renderer, &frame, encoding), expected, "of light {light}");
         }
         let mut buried = frame.lights.to_vec();
         buried[0] = moved(&buried[0], DVec3::NEG_Y * 50.0).with_area(BALL);
-        painted(gl, &mut renderer, &Frame { lights: &buried, ..frame }, encoding);
+        painted(gl, &mut renderer, &frame.lights(&buried), encoding);
         gl.assert_no_complaint("odd components");
     });
 }

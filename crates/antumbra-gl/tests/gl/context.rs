@@ -1,22 +1,44 @@
 //! Contexts, and what the driver says against a test's calls.
 
+use crate::bare_gles;
 use antumbra_host::{Api, TestContext};
 use glow::HasContext;
 use std::sync::Arc;
 
 /// A context of one kind, with the driver's complaints collected.
 pub(crate) struct Gl {
-    pub(crate) api: Api,
+    pub(crate) kind: Kind,
     pub(crate) gl: Arc<glow::Context>,
-    _context: TestContext,
+    pub(crate) context: TestContext,
 }
 
-/// Runs a test in OpenGL 3.3 and in OpenGL ES 3.0; afterwards the driver must have had nothing to
+/// A kind of context.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Gl33,
+    /// OpenGL ES with all that the driver has to offer.
+    Gles,
+    /// OpenGL ES 3.0 without any extension, which no driver here is: it is told so.
+    BareGles,
+    /// The same with render targets of 16-bit floats, which do not blend as 32-bit floats would.
+    HalfGles,
+}
+
+/// Runs a test in OpenGL 3.3 and in OpenGL ES; afterwards the driver must have had nothing to
 /// complain about. Where there is no OpenGL the test says so and is skipped; with
 /// `ANTUMBRA_REQUIRE_GL` that is a failure.
 pub(crate) fn in_each_api(test: impl Fn(&Gl)) {
-    for api in [Api::Gl33, Api::Gles30] {
-        if let Some(gl) = Gl::new(api) {
+    in_each([Kind::Gl33, Kind::Gles], test);
+}
+
+/// The same, and where there are no render targets of floats.
+pub(crate) fn in_each_tier(test: impl Fn(&Gl)) {
+    in_each([Kind::Gl33, Kind::Gles, Kind::BareGles], test);
+}
+
+pub(crate) fn in_each<const N: usize>(kinds: [Kind; N], test: impl Fn(&Gl)) {
+    for kind in kinds {
+        if let Some(gl) = Gl::new(kind) {
             test(&gl);
             gl.assert_no_complaint("the test's end");
         }
@@ -24,9 +46,13 @@ pub(crate) fn in_each_api(test: impl Fn(&Gl)) {
 }
 
 impl Gl {
-    fn new(api: Api) -> Option<Self> {
-        let context = TestContext::new(api)?;
-        let gl = context.gl().clone();
+    fn new(kind: Kind) -> Option<Self> {
+        let context = TestContext::new(if kind == Kind::Gl33 { Api::Gl33 } else { Api::Gles30 })?;
+        let gl = match kind {
+            Kind::BareGles => Arc::new(bare_gles::context(&context, false)),
+            Kind::HalfGles => Arc::new(bare_gles::context(&context, true)),
+            _ => context.gl().clone(),
+        };
         if gl.supports_debug() {
             // SAFETY: switches of contexts with KHR_debug.
             unsafe {
@@ -39,16 +65,21 @@ impl Gl {
                 }
             }
         }
-        Some(Self { api, gl, _context: context })
+        Some(Self { kind, gl, context })
     }
 
     pub(crate) fn is_desktop(&self) -> bool {
-        self.api == Api::Gl33
+        self.kind == Kind::Gl33
     }
 
     /// The version, as (major, minor).
     pub(crate) fn version(&self) -> (u32, u32) {
         (self.gl.version().major, self.gl.version().minor)
+    }
+
+    /// Whether 32-bit floats can be drawn to, and blend.
+    pub(crate) fn has_floats(&self) -> bool {
+        matches!(self.kind, Kind::Gl33 | Kind::Gles)
     }
 
     /// Binds a framebuffer for drawing and reading.
@@ -82,7 +113,7 @@ impl Gl {
 
     pub(crate) fn assert_no_complaint(&self, after: &str) {
         let complaints = self.complaints();
-        assert!(complaints.is_empty(), "{:?}, after {after}: {complaints:?}", self.api);
+        assert!(complaints.is_empty(), "{:?}, after {after}: {complaints:?}", self.kind);
     }
 }
 

@@ -1,13 +1,14 @@
 //! Maps handed out to be shown: what they keep, and what drawing them leaves behind.
 
-use crate::context::{Gl, in_each_api};
+use crate::context::{Gl, in_each_api, in_each_tier};
+use crate::full_screen;
 use crate::leaks::live;
 use crate::map::renderer;
 use crate::odd_host::OddHost;
-use crate::shot::{Shot, VIEWPORT, read_texture, texture};
+use crate::shot::{Shot, VIEWPORT, assert_needs_floats, read_texture, texture};
 use crate::snapshot::{assert_same, snapshot};
 use crate::world::World;
-use antumbra_gl::{Area, Error, Frame, Light, Pattern, Renderer, Soft, Tier, light_points};
+use antumbra_gl::{Area, Error, Soft};
 use antumbra_gl::{DepthMap, DepthScale, MapFace};
 use glam::{DVec3, DVec4, Vec3, Vec4Swizzles};
 use glow::HasContext;
@@ -52,22 +53,8 @@ translation = [0.0, 5.0, -4.0]
 
 /// What a map keeps, row by row from the bottom, read as a host's shader reads it.
 fn read(gl: &Gl, map: &DepthMap) -> Vec<f32> {
-    let header = if gl.is_desktop() { "#version 330 core\n" } else { "#version 300 es\n" };
-    let sources = [
-        (
-            glow::VERTEX_SHADER,
-            "void main() {
-                gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0);
-            }",
-        ),
-        (
-            glow::FRAGMENT_SHADER,
-            "precision highp float;
-            uniform highp sampler2D u_map;
-            out vec4 color;
-            void main() { color = texelFetch(u_map, ivec2(gl_FragCoord.xy), 0); }",
-        ),
-    ];
+    let fragment = "uniform highp sampler2D u_map; out vec4 color;
+        void main() { color = texelFetch(u_map, ivec2(gl_FragCoord.xy), 0); }";
     let size = map.size.map(|side| side as i32);
     let kept = texture(
         &gl.gl,
@@ -78,33 +65,16 @@ fn read(gl: &Gl, map: &DepthMap) -> Vec<f32> {
     // SAFETY: everything is made here, and deleted.
     unsafe {
         let gl = &gl.gl;
-        let program = gl.create_program().expect("a program");
-        for (kind, source) in sources {
-            let shader = gl.create_shader(kind).expect("a shader");
-            gl.shader_source(shader, &format!("{header}{source}"));
-            gl.compile_shader(shader);
-            assert!(gl.get_shader_compile_status(shader), "{}", gl.get_shader_info_log(shader));
-            gl.attach_shader(program, shader);
-            gl.delete_shader(shader);
-        }
-        gl.link_program(program);
-        let framebuffer = gl.create_framebuffer().expect("a framebuffer");
-        let vertex_array = gl.create_vertex_array().expect("a vertex array");
-        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer));
-        let attachment = glow::COLOR_ATTACHMENT0;
-        gl.framebuffer_texture_2d(glow::FRAMEBUFFER, attachment, glow::TEXTURE_2D, Some(kept), 0);
-        gl.viewport(0, 0, size[0], size[1]);
+        let program = full_screen::program(gl, fragment);
+        let framebuffer = full_screen::framebuffer(gl, kept);
         gl.use_program(Some(program));
-        gl.bind_vertex_array(Some(vertex_array));
         gl.active_texture(glow::TEXTURE0);
-        gl.bind_texture(glow::TEXTURE_2D, Some(map.texture));
-        gl.draw_arrays(glow::TRIANGLES, 0, 3);
+        gl.bind_texture(glow::TEXTURE_2D, Some(map.texture.glow()));
+        full_screen::draw(gl, framebuffer, size);
         gl.bind_texture(glow::TEXTURE_2D, None);
-        gl.bind_vertex_array(None);
         gl.use_program(None);
         gl.bind_framebuffer(glow::FRAMEBUFFER, None);
         gl.delete_framebuffer(framebuffer);
-        gl.delete_vertex_array(vertex_array);
         gl.delete_program(program);
         let texels: Vec<[f32; 4]> = read_texture(gl, kept, size);
         gl.delete_texture(kept);
@@ -123,22 +93,12 @@ fn distance_at(map: &DepthMap, face: &MapFace, kept: &[f32], point: DVec3) -> Op
     map.scale.distance(kept[(row * map.size[0] + column) as usize])
 }
 
-/// A renderer and what can be read of its maps; `None` where there are no float targets to read them through.
-fn setting(gl: &Gl, technique: &str) -> Option<Renderer> {
-    let renderer = renderer(gl, technique);
-    if renderer.caps().tier == Tier::Es3 {
-        eprintln!("SKIPPED: no floating-point targets");
-        return None;
-    }
-    Some(renderer)
-}
-
 #[test]
 fn a_known_ball_is_at_its_distance() {
     in_each_api(|gl| {
         let world = World::parse(BALLS);
         let shot = Shot::new(gl, &world);
-        let Some(mut renderer) = setting(gl, "map:size=512") else { return };
+        let mut renderer = renderer(gl, "map:size=512");
         // The light's distance to the ball's top, to the floor; its distance scale begins at the origin for a sun.
         for (light, ball, floor) in [(0, 3.5, 5.0), (1, -1.5, 0.0), (2, 3.5, 5.0)] {
             let map = renderer.depth_map(&shot.frame(), light).expect("the frame is right").expect("a map");
@@ -183,7 +143,7 @@ fn every_texel_is_what_the_light_sees() {
     in_each_api(|gl| {
         let world = World::one_of_each();
         let shot = Shot::new(gl, &world);
-        let Some(mut renderer) = setting(gl, "map:size=256") else { return };
+        let mut renderer = renderer(gl, "map:size=256");
         for light in 0..world.lights.len() {
             let map = renderer.depth_map(&shot.frame(), light).expect("the frame is right").expect("a map");
             let kept = read(gl, &map);
@@ -218,7 +178,7 @@ fn every_texel_is_what_the_light_sees() {
                     }
                 }
             }
-            eprintln!("{:?} light {light}: {right} right, {empty} empty, {wrong} wrong", gl.api);
+            eprintln!("{:?} light {light}: {right} right, {empty} empty, {wrong} wrong", gl.kind);
             assert!(right > 200 && empty > 200, "light {light}: {right} right, {empty} empty");
             // Edges, where triangles are inside of round shapes by a quarter of a texel.
             assert!(wrong * 100 <= right, "light {light}: {wrong} texels are wrong, {right} right");
@@ -259,7 +219,7 @@ fn showing_a_map_changes_nothing() {
 
 #[test]
 fn lights_without_a_map_have_none() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let world = World::parse(BALLS);
         let shot = Shot::new(gl, &world);
         let frame = shot.frame();
@@ -270,24 +230,27 @@ fn lights_without_a_map_have_none() {
             assert_eq!(map.is_some(), technique.has_maps(), "{technique} says so");
         }
         let mut renderer = renderer(gl, "map:size=64");
-        let off = [Light { intensity: Vec3::ZERO, ..world.lights[0] }];
-        assert_eq!(renderer.depth_map(&Frame { lights: &off, ..frame }, 0), Ok(None), "it is off");
-        let nothing = Frame { occluders: &[], ..frame };
+        let off = [world.lights[0].with_intensity(Vec3::ZERO)];
+        assert_eq!(renderer.depth_map(&frame.lights(&off), 0), Ok(None), "it is off");
+        let nothing = frame.occluders(&[]);
         assert_eq!(renderer.depth_map(&nothing, 0), Ok(None), "nothing casts");
         let area = [world.lights[2].with_area(Area::Sphere { radius: 0.5 })];
-        let area = Frame { lights: &area, ..frame };
+        let area = frame.lights(&area);
         assert!(matches!(renderer.depth_map(&area, 0), Err(Error::Refused { .. })), "as any frame is");
-        if renderer.caps().tier == Tier::Es3 {
-            return;
-        }
         renderer.set_soft(Soft::samples(4));
+        if !gl.has_floats() {
+            return assert_needs_floats(&mut renderer, &area);
+        }
         let map = renderer.depth_map(&area, 0).expect("as points").expect("the first point's");
         let below = map.faces[3].expect("the face downward").to_map;
         let at = below.inverse() * DVec4::new(0.0, 0.0, 1.0, 0.0);
         let eye = at.xyz() / at.w;
-        let mut first = None;
-        light_points(&area.lights[0].area, 4, Pattern::Spread, |offset| _ = first.get_or_insert(offset));
-        let expected = DVec3::Y * 5.0 + first.expect("a point");
+        // The first of four points of a ball, by docs/theory/samples.md: at 3/4 of the height, and at the median of radii
+        // that are dense as 1 / sqrt(1 - r²), the sine of the t with 2 t - sin 2 t = π/2.
+        let median = 1.154_940_730_f64;
+        assert!((2.0 * median - (2.0 * median).sin() - std::f64::consts::FRAC_PI_2).abs() < 1e-8);
+        let first = DVec3::new((1.0 - 0.75f64 * 0.75).sqrt(), 0.75, 0.0) * (0.5 * median.sin());
+        let expected = DVec3::Y * 5.0 + first;
         assert!(eye.distance(expected) < 1e-6, "the map is seen from {eye}, not {expected}");
     });
 }

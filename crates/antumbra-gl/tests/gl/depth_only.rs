@@ -2,9 +2,9 @@
 
 use crate::context::in_each_api;
 use crate::lights::{STEP, overlay};
-use crate::shot::{Shot, VIEWPORT, texture};
+use crate::shot::{Shot, VIEWPORT, known, texture};
 use crate::world::World;
-use antumbra_gl::{DepthFormat, Encoding, Frame, NormalSpace, Normals, Renderer, Surface};
+use antumbra_gl::{DepthFormat, Encoding, Frame, NormalSpace, Normals, Renderer};
 use glam::{DMat3, DVec3};
 use glow::HasContext;
 
@@ -53,7 +53,7 @@ fn lit_sides_stay_lit_without_ids() {
     in_each_api(|gl| {
         for bits in [24, 16] {
             let world = World::one_of_each();
-            let format = DepthFormat { bits, ..DepthFormat::default() };
+            let format = DepthFormat::fixed(bits);
             // A near plane that is not wasteful: 16 bits are few.
             let mut camera = world.camera(VIEWPORT);
             camera.projection.w_axis.z = -8.0;
@@ -61,7 +61,9 @@ fn lit_sides_stay_lit_without_ids() {
             let truth = world.truth(&shot);
             let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
             for own in &world.occluders {
-                let frame = Frame { occluders: &[*own], ..without(&shot, false, false) };
+                let mut judged = 0;
+                let these = [*own];
+                let frame = without(&shot, false, false).occluders(&these);
                 for (light, mask) in shot.masks(&mut renderer, &frame).iter().enumerate() {
                     let lit: Vec<usize> = (0..mask.len())
                         .filter(|&i| truth.sure[i] && shot.seen[i].is_some_and(|s| s.primitive + 1 == own.id))
@@ -74,7 +76,9 @@ fn lit_sides_stay_lit_without_ids() {
                         .collect();
                     let dark = lit.iter().filter(|&&i| mask[i] < 255).count();
                     assert_eq!(dark, 0, "{bits} bits, {own:?}, light {light}: dark of {} lit", lit.len());
+                    judged += lit.len();
                 }
+                assert!(judged > 30, "{bits} bits, {own:?}: {judged} lit pixels are judged");
             }
         }
     });
@@ -105,13 +109,13 @@ fn normals_come_in_any_space_and_format() {
         let byte_texture = texture(&gl.gl, size, [glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE], &bytes);
         let kinds = [
             // The same but for rounding.
-            (Normals { texture: world_texture, space: NormalSpace::World, biased: false }, 2, 0.0),
+            (Normals::new(known(world_texture), NormalSpace::World), 2, 0.0),
             // A normal is off by half a degree: edges on grazing surfaces get wider or narrower.
-            (Normals { texture: byte_texture, space: NormalSpace::View, biased: true }, 25, 5e-3),
+            (Normals::new(known(byte_texture), NormalSpace::View).biased(), 25, 5e-3),
         ];
         for (normals, tolerance, over) in kinds {
-            let surface = Surface { normals: Some(normals), ..shot.frame().surface };
-            let masks = shot.masks(&mut renderer, &Frame { surface, ..shot.frame() });
+            let surface = shot.frame().surface.with_normals(normals);
+            let masks = shot.masks(&mut renderer, &shot.frame().surface(surface));
             let pairs = expected.iter().flatten().zip(masks.iter().flatten());
             let off = pairs.filter(|(a, b)| a.abs_diff(**b) > tolerance).count();
             let allowed = (expected.len() * shot.seen.len()) as f64 * over;

@@ -1,9 +1,9 @@
 //! OpenGL objects: deleted with the renderer, replaced when sizes change, not made in between.
 
-use crate::context::{Gl, in_each_api};
+use crate::context::{Gl, in_each_api, in_each_tier};
 use crate::lights::many_lights;
-use crate::shot::{Canvas, Shot, VIEWPORT};
-use antumbra_gl::{Encoding, Frame, Renderer, Surface, Technique, Tier};
+use crate::shot::{Canvas, Shot, VIEWPORT, each_batch, known};
+use antumbra_gl::{Encoding, Renderer, Surface, Technique};
 use glow::HasContext;
 use std::num::NonZeroU32;
 
@@ -102,7 +102,7 @@ fn live_objects_are_counted() {
 
 #[test]
 fn a_renderer_takes_its_objects_with_it() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let (few, many) = (many_lights(3), many_lights(9));
         let (shot, many_shot) = (Shot::new(gl, &few), Shot::new(gl, &many));
         let canvas = Canvas::new(gl);
@@ -112,24 +112,20 @@ fn a_renderer_takes_its_objects_with_it() {
             let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
             renderer.set_technique(able[round / 10 % able.len()]).expect("a technique");
             // Some are dropped without a frame, some after a kind of frame each.
-            let float = renderer.caps().tier != Tier::Es3;
+            let float = gl.has_floats();
             let frame = if round % 2 == 0 && float { many_shot.frame() } else { shot.frame() };
             match round % 10 {
                 0 => {}
-                1 => renderer.masks(&frame, |_| {}).expect("the frame is right"),
+                1 => each_batch(&mut renderer, &frame, |_| {}).expect("the frame is right"),
                 2 => {
-                    let surface = Surface::from_depth(shot.depth);
-                    renderer.overlay(&Frame { surface, ..frame }, Encoding::Linear).expect("right");
+                    let surface = Surface::from_depth(known(shot.depth));
+                    renderer.overlay(&frame.surface(surface), Encoding::Linear).expect("right");
                 }
                 3..6 => {
-                    let samples = Surface { samples: 4096, ..frame.surface };
-                    renderer
-                        .overlay(&Frame { surface: samples, ..frame }, Encoding::Linear)
-                        .expect_err("samples");
-                    let attached = Surface { depth: canvas.colors[0], ..frame.surface };
-                    renderer
-                        .overlay(&Frame { surface: attached, ..frame }, Encoding::Linear)
-                        .expect_err("attached");
+                    let samples = frame.surface.with_samples(4096);
+                    renderer.overlay(&frame.surface(samples), Encoding::Linear).expect_err("samples");
+                    let attached = Surface::from_depth(known(canvas.colors[0]));
+                    renderer.overlay(&frame.surface(attached), Encoding::Linear).expect_err("attached");
                 }
                 _ => renderer.overlay(&frame, Encoding::Linear).expect("the frame is right"),
             }
@@ -141,21 +137,21 @@ fn a_renderer_takes_its_objects_with_it() {
 
 #[test]
 fn another_size_replaces_the_old_targets() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let world = many_lights(9);
         let shot = Shot::new(gl, &world);
         let _canvas = Canvas::new(gl);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
-        let float = renderer.caps().tier != Tier::Es3;
+        let float = gl.has_floats();
         let able = Shot::able(&shot.frame());
         let mut draw = |width: i32, height: i32| {
-            let frame = Frame { viewport: [0, 0, width, height], ..shot.frame() };
+            let frame = shot.frame().viewport([0, 0, width, height]);
             for technique in &able {
                 renderer.set_technique(*technique).expect("a technique");
                 if float {
                     renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
                 }
-                renderer.masks(&frame, |_| {}).expect("the frame is right");
+                each_batch(&mut renderer, &frame, |_| {}).expect("the frame is right");
             }
         };
         draw(VIEWPORT[2], VIEWPORT[3]);
@@ -182,12 +178,12 @@ fn a_failed_frame_leaves_no_object_and_the_next_one_works() {
             renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
         }
         let before = live(&gl.gl);
-        let attached = Surface { ids: Some(canvas.colors[0]), ..shot.frame().surface };
+        let attached = shot.frame().surface.with_ids(known(canvas.colors[0]));
         for round in 0..50 {
             renderer.set_technique(able[round % able.len()]).expect("a technique");
-            let bad = Frame { surface: attached, ..shot.frame() };
+            let bad = shot.frame().surface(attached);
             renderer.overlay(&bad, Encoding::Linear).expect_err("attached");
-            let bad = Frame { viewport: [0, 0, 0, 10], ..shot.frame() };
+            let bad = shot.frame().viewport([0, 0, 0, 10]);
             renderer.overlay(&bad, Encoding::Linear).expect_err("no viewport");
             renderer.overlay(&shot.frame(), Encoding::Linear).expect("the next frame is right");
         }
@@ -215,10 +211,8 @@ fn memory_by_lights(gl: &Gl, technique: Technique) {
         let _canvas = Canvas::new(gl);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         renderer.set_technique(technique).expect("a technique");
-        if renderer.caps().tier != Tier::Es3 {
-            renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
-        }
-        renderer.masks(&shot.frame(), |_| {}).expect("the frame is right");
+        renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
+        each_batch(&mut renderer, &shot.frame(), |_| {}).expect("the frame is right");
         (live(&gl.gl), sizes(gl))
     });
     for (count, (objects, (textures, buffers))) in counts.iter().zip(&used) {

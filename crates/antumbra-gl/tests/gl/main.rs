@@ -5,25 +5,30 @@
 //! projection, depth format and viewport is then one line, and the expected shadows come from the
 //! ray tracer, which shares no code with the renderer.
 
+mod bare_gles;
 mod context;
+mod full_screen;
 mod odd_host;
 mod shot;
 mod snapshot;
-mod soft_twins;
+mod truth;
 mod world;
 
+mod averted;
 mod bad_frames;
 mod cameras;
 mod composite;
 mod composite_guest;
 mod composite_soft;
+mod depth_copy;
 mod depth_map;
 mod depth_only;
+mod falloffs;
+mod hosts;
 mod leaks;
 mod lights;
 mod map;
 mod map_guest;
-mod map_twins;
 mod occluders;
 mod projected;
 mod sampled;
@@ -31,6 +36,5 @@ mod samples;
 mod state;
 mod stats;
 mod steady;
-mod twins;
 mod viewports;
 mod volumes;

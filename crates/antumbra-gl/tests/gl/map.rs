@@ -1,14 +1,15 @@
 //! Shadow maps in contexts: every kind of light, seams, awkward casters, options, and what a steady frame makes.
 
 use crate::context::{Gl, in_each_api};
-use crate::shot::{Shot, read_texture};
-use crate::world::{ONE_OF_EACH, Truth, World};
+use crate::shot::{Shot, each_batch, known, read_texture};
+use crate::truth::Truth;
+use crate::world::{ONE_OF_EACH, World};
 use antumbra_gl::Part;
 use antumbra_gl::technique::map::{Filter, Options};
-use antumbra_gl::{Area, Error, Frame, Light, Occluder, Renderer, Surface, Technique, Tier};
+use antumbra_gl::{Area, Error, Frame, Light, Occluder, Renderer, Surface, Technique};
 use antumbra_math::Light as Place;
 use glam::{DVec3, Vec3};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_6, PI};
 
 pub(crate) fn renderer(gl: &Gl, technique: &str) -> Renderer {
     let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
@@ -27,14 +28,15 @@ fn wrong(truth: &Truth<'_>, light: usize, mask: &[u8]) -> (usize, usize) {
 
 /// Masks of a frame of up to four lights with areas, which float textures hold where there are any.
 fn soft_masks(gl: &Gl, shot: &Shot<'_>, renderer: &mut Renderer, frame: &Frame<'_>) -> Vec<Vec<u8>> {
-    if renderer.caps().tier == Tier::Es3 {
+    if !gl.has_floats() {
         return shot.masks(renderer, frame);
     }
     let mut texels: Vec<[f32; 4]> = Vec::new();
     let [_, _, width, height] = frame.viewport;
-    renderer
-        .masks(frame, |batch| texels = read_texture(&gl.gl, batch.textures[0], [width, height]))
-        .expect("the frame is right");
+    each_batch(renderer, frame, |batch| {
+        texels = read_texture(&gl.gl, batch.textures[0].glow(), [width, height])
+    })
+    .expect("the frame is right");
     let mask = |light: usize| texels.iter().map(|t| (t[light] * 255.0).round() as u8).collect();
     (0..frame.lights.len()).map(mask).collect()
 }
@@ -55,7 +57,7 @@ fn every_kind_of_light_and_filter_is_right() {
             gl.assert_no_complaint(technique);
             for (light, mask) in masks.iter().enumerate() {
                 let (wrong, dark) = wrong(&truth, light, mask);
-                eprintln!("{:?} {technique} light {light}: {wrong} wrong, {dark} dark", gl.api);
+                eprintln!("{:?} {technique} light {light}: {wrong} wrong, {dark} dark", gl.kind);
                 assert!(dark > 40, "light {light} has shadows: {dark}");
                 let allowed = (mask.len() as f64 * WRONG) as usize;
                 assert!(wrong <= allowed, "{technique}, light {light}: {wrong} pixels are wrong");
@@ -68,26 +70,37 @@ fn every_kind_of_light_and_filter_is_right() {
 #[test]
 fn spots_of_every_angle_are_right() {
     in_each_api(|gl| {
-        let world = World::one_of_each();
+        // The truth is that of a point light where the spot is, which shines everywhere.
+        let spot = "type = \"spot\"\nposition = [-3.0, 6.0, 2.0]\ndirection = [0.5, -1.0, -0.3]\ninner_angle = 15.0\n\
+                    outer_angle = 30.0\n";
+        let (position, direction) = (DVec3::new(-3.0, 6.0, 2.0), DVec3::new(0.5, -1.0, -0.3).normalize());
+        let point = ONE_OF_EACH.replace(spot, "type = \"point\"\nposition = [-3.0, 6.0, 2.0]\n");
+        let world = World::parse(&point);
         let shot = Shot::new(gl, &world);
         let truth = world.truth(&shot);
-        let Place::Spot { position, direction, .. } = world.lights[2].place else {
-            panic!("the third light is the spot")
-        };
+        let lit = &truth.lights[2];
         let mut renderer = renderer(gl, "map");
-        for degrees in [1.0, 20.0, 59.9, 60.1, 89.0, 90.0, 120.0, 180.0f64] {
+        let mut before = 0;
+        for degrees in [1.0, 20.0, 45.0, 59.9, 60.1, 89.0, 90.0, 120.0, 180.0f64] {
             let angle = degrees.to_radians().min(PI - 1e-6);
             let lights = [Light::spot(position, direction, 0.0, angle as f32, Vec3::ONE)];
-            let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
-            let inside = |i: usize| {
-                shot.seen[i].is_some_and(|s| {
-                    direction.angle_between(s.point - position) < angle.min(FRAC_PI_2 * 2.0) - 1e-3
-                })
-            };
-            let [_, lit] = [&truth.lights[0], &truth.lights[2]];
-            let pixels =
-                (0..masks[0].len()).filter(|&i| truth.sure[i] && inside(i) && lit[i].1 != Vec3::ZERO);
-            let wrong = pixels.filter(|&i| (masks[0][i] > 127) != (lit[i].0 > 0.5)).count();
+            let masks = shot.masks(&mut renderer, &shot.frame().lights(&lights));
+            let off_axis = |i: usize| shot.seen[i].map(|s| direction.angle_between(s.point - position));
+            let inside = |i: usize| off_axis(i).is_some_and(|at| at < angle - 1e-3);
+            let judged: Vec<usize> = (0..masks[0].len())
+                .filter(|&i| truth.sure[i] && inside(i) && lit[i].1 != Vec3::ZERO)
+                .collect();
+            let wrong = judged.iter().filter(|&&i| (masks[0][i] > 127) != (lit[i].0 > 0.5)).count();
+            let dark = judged.iter().filter(|&&i| lit[i].0 < 0.5).count();
+            let wide = judged.iter().filter(|&&i| off_axis(i) > Some(FRAC_PI_6)).count();
+            eprintln!("{degrees} degrees: {wrong} wrong of {}, {dark} dark, {wide} wide", judged.len());
+            assert!(judged.len() >= before, "{degrees} degrees: wider spots shine on no less");
+            assert!(degrees < 20.0 || dark > 40, "{degrees} degrees: there are shadows");
+            assert!(
+                degrees < 31.0 || wide > 1000,
+                "{degrees} degrees: {wide} are further than 30 off the axis"
+            );
+            before = judged.len();
             assert!(wrong <= 4, "{degrees} degrees: {wrong} pixels are wrong");
             gl.assert_no_complaint("a spot");
         }
@@ -120,7 +133,7 @@ fn faces_have_no_seams() {
         }
         let mut renderer = renderer(gl, "map:filter=pcss:size=512");
         let lamp = world.lights[0].with_area(Area::Sphere { radius: 0.2 });
-        let masks = soft_masks(gl, &shot, &mut renderer, &Frame { lights: &[lamp], ..shot.frame() });
+        let masks = soft_masks(gl, &shot, &mut renderer, &shot.frame().lights(&[lamp]));
         let dark = masks[0].iter().filter(|&&m| m < 255).count();
         assert_eq!(dark, 0, "pixels of the lit table are dark under a ball of light");
         // A ring of balls round the lamp: their shadows cross all borders.
@@ -155,16 +168,30 @@ fn depth_alone_gives_no_acne() {
             let world = World::parse(text);
             let shot = Shot::new(gl, &world);
             let truth = world.truth(&shot);
-            let surface = Surface { depth_format: shot.format, ..Surface::from_depth(shot.depth) };
+            let surface = Surface::from_depth(known(shot.depth)).with_format(shot.format);
             for technique in ["map:size=256", "map", "map:filter=none"] {
                 let mut renderer = renderer(gl, technique);
-                let masks = shot.masks(&mut renderer, &Frame { surface, ..shot.frame() });
+                let masks = shot.masks(&mut renderer, &shot.frame().surface(surface));
                 for (light, mask) in masks.iter().enumerate() {
                     let lights = &truth.lights[light];
                     let lit = |&i: &usize| truth.sure[i] && lights[i].0 > 0.5 && lights[i].1 != Vec3::ZERO;
                     let dark = (0..mask.len()).filter(lit).filter(|&i| mask[i] < 128).count();
-                    eprintln!("{:?} {technique} light {light}: {dark} wrongly dark", gl.api);
+                    eprintln!("{:?} {technique} light {light}: {dark} wrongly dark", gl.kind);
                     assert!(dark <= 4, "{technique}, light {light}: {dark} pixels are wrongly dark");
+                    let shadowed =
+                        |&i: &usize| truth.sure[i] && lights[i].0 < 0.5 && lights[i].1 != Vec3::ZERO;
+                    let shadows: Vec<usize> = (0..mask.len()).filter(shadowed).collect();
+                    let seen = shadows.iter().filter(|&&i| mask[i] < 128).count();
+                    assert!(
+                        text == LAMP || shadows.len() > 40,
+                        "light {light} has shadows: {}",
+                        shadows.len()
+                    );
+                    assert!(
+                        seen * 10 >= shadows.len() * 9,
+                        "{technique}, light {light}: {seen} of {}",
+                        shadows.len()
+                    );
                 }
             }
         }
@@ -196,7 +223,8 @@ fn lights_in_on_and_under_casters() {
         let shot = Shot::new(gl, &world);
         let mut renderer = renderer(gl, "map");
         let mut dark_under = |what: &str, light: &Light, occluders: &[Occluder]| {
-            let frame = Frame { lights: &[*light], occluders, ..shot.frame() };
+            let these_lights = [*light];
+            let frame = shot.frame().lights(&these_lights).occluders(occluders);
             let (dark, all) = dark(&shot, &shot.masks(&mut renderer, &frame)[0]);
             gl.assert_no_complaint(what);
             dark as f64 / all as f64
@@ -252,9 +280,9 @@ fn areas_need_pcss() {
         ];
         for area in areas {
             let lights = [world.lights[1], world.lights[0].with_area(area)];
-            let frame = Frame { lights: &lights, ..shot.frame() };
+            let frame = shot.frame().lights(&lights);
             for technique in ["map", "map:filter=none"] {
-                let refused = renderer(gl, technique).masks(&frame, |_| {}).expect_err("an area");
+                let refused = each_batch(&mut renderer(gl, technique), &frame, |_| {}).expect_err("an area");
                 let Error::Refused { refusal, .. } = &refused else { panic!("{refused}") };
                 assert_eq!(refusal.part, Part::Light(1), "{refused}");
                 assert!(refused.to_string().contains("filter is pcss"), "{refused}");
@@ -310,7 +338,7 @@ fn extreme_options_work() {
         let mut renderer = renderer(gl, "map:size=8192");
         let limit = renderer.caps().max_texture_size;
         let sun = &world.lights[1..2];
-        let drawn = renderer.masks(&Frame { lights: sun, ..shot.frame() }, |_| {});
+        let drawn = each_batch(&mut renderer, &shot.frame().lights(sun), |_| {});
         assert_eq!(drawn.is_ok(), limit >= 8192, "{drawn:?}");
         gl.assert_no_complaint("large maps");
     });

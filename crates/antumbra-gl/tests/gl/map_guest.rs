@@ -1,14 +1,14 @@
 //! Shadow maps as guests: nonsense, odd hosts, and what they make and leave behind.
 
-use crate::context::in_each_api;
+use crate::context::{in_each_api, in_each_tier};
 use crate::leaks::live;
 use crate::lights::many_lights;
 use crate::map::{FLOOR, dark, renderer};
 use crate::odd_host::OddHost;
-use crate::shot::{Canvas, Shot, VIEWPORT};
+use crate::shot::{Canvas, Shot, VIEWPORT, each_batch};
 use crate::snapshot::{assert_same, snapshot};
 use crate::world::World;
-use antumbra_gl::{Area, Encoding, Frame, Light, MeshOccluder, Occluder, Tier};
+use antumbra_gl::{Area, Encoding, Light, MeshOccluder, Occluder};
 use antumbra_math::{Light as Place, TriangleMesh};
 use glam::{DMat4, DVec3, Vec3};
 use glow::HasContext;
@@ -24,13 +24,13 @@ fn nonsense_is_left_out() {
         let alone = shot.masks(&mut renderer, &shot.frame());
         let bad = crate::occluders::nonsense();
         for occluder in &bad {
-            let frame = Frame { occluders: std::slice::from_ref(occluder), ..shot.frame() };
+            let frame = shot.frame().occluders(std::slice::from_ref(occluder));
             let masks = shot.masks(&mut renderer, &frame);
             assert!(masks.iter().flatten().all(|&m| m == 255), "{occluder:?} casts a shadow");
         }
         let mut all = bad;
         all.extend(&world.occluders);
-        let among = shot.masks(&mut renderer, &Frame { occluders: &all, ..shot.frame() });
+        let among = shot.masks(&mut renderer, &shot.frame().occluders(&all));
         assert!(among == alone, "the shadows of the others change");
         for bad in [f64::NAN, f64::INFINITY, 1e300] {
             let at = DVec3::new(0.0, bad, 0.0);
@@ -41,14 +41,15 @@ fn nonsense_is_left_out() {
                 Light::spot(DVec3::Y, DVec3::ZERO, 0.0, 0.0, Vec3::ONE),
             ];
             lights.extend(&world.lights);
-            let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
+            let masks = shot.masks(&mut renderer, &shot.frame().lights(&lights));
             assert!(masks[4..] == alone[..], "the masks of the others change");
+            assert!(masks[..4].iter().flatten().all(|&m| m == 255), "what is nowhere casts nothing");
             gl.assert_no_complaint("lights that are nowhere");
         }
         // Far too small and far too large.
         for size in [1e-30, 1e-9, 1e9, 1e30] {
             let occluders = [Occluder::sphere(DVec3::Y, size), Occluder::disc(DVec3::Y, DVec3::Y, size)];
-            let _ = shot.masks(&mut renderer, &Frame { occluders: &occluders, ..shot.frame() });
+            let _ = shot.masks(&mut renderer, &shot.frame().occluders(&occluders));
             gl.assert_no_complaint("extreme sizes");
         }
     });
@@ -114,20 +115,19 @@ fn meshes_cast_and_are_let_go() {
         let world = World::parse(FLOOR);
         let shot = Shot::new(gl, &world);
         let mut renderer = renderer(gl, "map");
-        let empty = Frame { occluders: &[], ..shot.frame() };
+        let empty = shot.frame().occluders(&[]);
         shot.masks(&mut renderer, &empty);
         let torus = Arc::new(TriangleMesh::torus(0.8, 0.2, 32).expect("a torus"));
         let stretch = DMat4::from_scale(DVec3::new(1.5, 1.0, -1.0));
-        let meshes =
-            [MeshOccluder { mesh: torus, model: DMat4::from_translation(DVec3::Y) * stretch, id: 5 }];
-        let mask = &shot.masks(&mut renderer, &Frame { meshes: &meshes, ..empty })[0];
+        let meshes = [MeshOccluder::new(torus, DMat4::from_translation(DVec3::Y) * stretch).with_id(5)];
+        let mask = &shot.masks(&mut renderer, &empty.meshes(&meshes))[0];
         let (dark, _) = dark(&shot, mask);
         // The lamp is straight above the middle: its light falls through the hole.
         let middle = mask[(VIEWPORT[3] / 2 * VIEWPORT[2] + VIEWPORT[2] / 2) as usize];
         assert!(dark > 300 && middle == 255, "{dark} pixels are dark, the middle is {middle}");
         let with = live(&gl.gl);
         for _ in 0..70 {
-            renderer.masks(&empty, |_| {}).expect("the frame is right");
+            each_batch(&mut renderer, &empty, |_| {}).expect("the frame is right");
         }
         let without = live(&gl.gl);
         assert_eq!((with[1] - without[1], with[3] - without[3]), (2, 1), "two buffers and a vertex array go");
@@ -138,7 +138,7 @@ fn meshes_cast_and_are_let_go() {
 /// with it.
 #[test]
 fn a_steady_frame_makes_nothing() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let world = many_lights(9);
         let shot = Shot::new(gl, &world);
         let _canvas = Canvas::new(gl);
@@ -150,20 +150,20 @@ fn a_steady_frame_makes_nothing() {
                 let moved = |light: &Light| {
                     let position = light.place.homogeneous().truncate();
                     let at = position + DVec3::new((step as f64 * 0.7).sin(), 0.1, (step as f64 * 0.9).cos());
-                    let moved = Light { place: Place::Point { position: at }, ..*light };
+                    let moved = light.with_place(Place::Point { position: at });
                     if soft { moved.with_area(Area::Sphere { radius: 0.1 }) } else { moved }
                 };
                 world.lights.iter().map(moved).chain([world.lights[0]]).collect()
             };
             let steps: Vec<Vec<Light>> = (0..8).map(lights).collect();
-            let float = renderer.caps().tier != Tier::Es3;
+            let float = gl.has_floats();
             let mut draw = |lights: &[Light]| {
-                let frame = Frame { lights, ..shot.frame() };
+                let frame = shot.frame().lights(lights);
                 let counted = allocation_counter::measure(|| {
                     if float {
                         renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
                     }
-                    renderer.masks(&frame, |_| {}).expect("the frame is right");
+                    each_batch(&mut renderer, &frame, |_| {}).expect("the frame is right");
                 });
                 counted.count_total
             };

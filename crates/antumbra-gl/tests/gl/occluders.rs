@@ -4,7 +4,7 @@ use crate::context::in_each_api;
 use crate::lights::{STEP, overlay};
 use crate::shot::Shot;
 use crate::world::{ONE_OF_EACH, World};
-use antumbra_gl::{DepthFormat, Encoding, Frame, Light, Occluder, Renderer};
+use antumbra_gl::{DepthFormat, Encoding, Light, Occluder, Renderer};
 use antumbra_math::{Plane, Rectangle, Sphere};
 use glam::{DVec3, Vec3};
 use std::fmt::Write;
@@ -15,7 +15,7 @@ fn no_occluders_no_shadows() {
         let world = World::one_of_each();
         let shot = Shot::new(gl, &world);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
-        let frame = Frame { occluders: &[], ..shot.frame() };
+        let frame = shot.frame().occluders(&[]);
         let picture = overlay(gl, &mut renderer, &frame, Encoding::Linear);
         assert!(picture.iter().all(|texel| *texel == [255; 4]), "nothing takes anything");
         assert!(shot.masks(&mut renderer, &frame).iter().flatten().all(|&m| m == 255), "all is lit");
@@ -38,10 +38,10 @@ pub(crate) fn nonsense() -> Vec<Occluder> {
             Occluder::cone(at, DVec3::Y, 1.0),
             Occluder::cone(DVec3::Y, at, 1.0),
             Occluder::cone(DVec3::ZERO, DVec3::Y, bad),
-            Occluder::new(Plane { normal: at, offset: 0.0 }.into()),
-            Occluder::new(Plane { normal: DVec3::Y, offset: bad }.into()),
-            Occluder::new(Rectangle { center: at, half_right: DVec3::X, half_forward: DVec3::Z }.into()),
-            Occluder::new(Rectangle { center: DVec3::Y, half_right: at, half_forward: DVec3::Z }.into()),
+            Occluder::new(Plane { normal: at, offset: 0.0 }),
+            Occluder::new(Plane { normal: DVec3::Y, offset: bad }),
+            Occluder::new(Rectangle { center: at, half_right: DVec3::X, half_forward: DVec3::Z }),
+            Occluder::new(Rectangle { center: DVec3::Y, half_right: at, half_forward: DVec3::Z }),
         ]);
     }
     all.extend([
@@ -55,7 +55,7 @@ pub(crate) fn nonsense() -> Vec<Occluder> {
         Occluder::cone(DVec3::Y, DVec3::Y, 0.0),
         Occluder::cone(DVec3::ZERO, DVec3::Y, 0.0),
         Occluder::cone(DVec3::ZERO, DVec3::Y, -1.0),
-        Occluder::new(Rectangle { center: DVec3::Y, half_right: DVec3::ZERO, half_forward: DVec3::Z }.into()),
+        Occluder::new(Rectangle { center: DVec3::Y, half_right: DVec3::ZERO, half_forward: DVec3::Z }),
     ]);
     all
 }
@@ -68,7 +68,8 @@ fn occluders_that_are_none_cast_nothing() {
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         for id in [0, 99] {
             for occluder in nonsense() {
-                let frame = Frame { occluders: &[occluder.with_id(id)], ..shot.frame() };
+                let these = [occluder.with_id(id)];
+                let frame = shot.frame().occluders(&these);
                 let masks = shot.masks(&mut renderer, &frame);
                 assert!(masks.iter().flatten().all(|&m| m == 255), "{occluder:?} casts a shadow");
             }
@@ -79,7 +80,7 @@ fn occluders_that_are_none_cast_nothing() {
         let mut all = nonsense();
         all.extend(&world.occluders);
         all.extend(nonsense());
-        let among = shot.masks(&mut renderer, &Frame { occluders: &all, ..shot.frame() });
+        let among = shot.masks(&mut renderer, &shot.frame().occluders(&all));
         assert!(among == alone, "the shadows of the others change");
     });
 }
@@ -101,8 +102,12 @@ fn lights_that_are_nowhere_take_nothing() {
             ];
             let mut lights = nowhere.to_vec();
             lights.extend(&world.lights);
-            let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
+            let masks = shot.masks(&mut renderer, &shot.frame().lights(&lights));
             assert!(masks[4..] == alone[..], "the masks of the others change");
+            assert!(masks[..4].iter().flatten().all(|&m| m == 255), "what is nowhere casts nothing");
+            let frame = shot.frame().lights(&nowhere);
+            let picture = crate::lights::overlay(gl, &mut renderer, &frame, Encoding::Linear);
+            assert!(picture.iter().all(|texel| *texel == [255; 4]), "and takes nothing");
             gl.assert_no_complaint("lights that are nowhere");
         }
     });
@@ -119,7 +124,8 @@ fn a_light_inside_an_occluder_is_dark() {
         let solids =
             [Occluder::sphere(DVec3::Y * 4.1, 0.5), Occluder::cone(DVec3::Y * 3.9, DVec3::Y * 5.0, 1.0)];
         for solid in solids {
-            let frame = Frame { lights: &lights, occluders: &[solid.with_id(99)], ..shot.frame() };
+            let these = [solid.with_id(99)];
+            let frame = shot.frame().lights(&lights).occluders(&these);
             let masks = shot.masks(&mut renderer, &frame);
             let dark = (0..shot.seen.len()).all(|i| (masks[0][i] == 0) == shot.seen[i].is_some());
             assert!(dark, "{solid:?} lets light out");
@@ -155,9 +161,10 @@ fn parts_of_one_solid_do_not_shadow_each_other() {
         let shot = Shot::new(gl, &world);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         let floor = |i: usize| shot.seen[i].is_some_and(|s| s.primitive == 0);
-        let ball = Occluder::new(Sphere { center: DVec3::Y, radius: 0.8 }.into());
+        let ball = Occluder::new(Sphere { center: DVec3::Y, radius: 0.8 });
         let masks = [1, 50].map(|id| {
-            let frame = Frame { occluders: &[ball.with_id(id)], ..shot.frame() };
+            let these = [ball.with_id(id)];
+            let frame = shot.frame().occluders(&these);
             shot.masks(&mut renderer, &frame)
         });
         let dark = |masks: &[Vec<u8>]| (0..shot.seen.len()).filter(|&i| floor(i) && masks[0][i] == 0).count();
@@ -197,7 +204,7 @@ fn two_thousand_occluders_are_a_frame() {
         let truth = world.truth(&shot);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         for (light, mask) in shot.masks(&mut renderer, &shot.frame()).iter().enumerate() {
-            truth.assert_mask(light, mask);
+            truth.assert_mask_where_sure(light, mask);
         }
         assert_eq!(renderer.stats().pairs, 3 * world.occluders.len(), "every pair is looked at");
         gl.assert_no_complaint("two thousand occluders");

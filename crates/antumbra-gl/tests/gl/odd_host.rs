@@ -1,6 +1,7 @@
 //! A host that has set every piece of OpenGL state to something odd.
 
 use crate::context::Gl;
+use crate::full_screen;
 use crate::shot::{Canvas, texture};
 use crate::snapshot::{DESKTOP_SWITCHES, SWITCHES, UNITS, has_indexed_blend, has_indexed_switches};
 use glow::HasContext;
@@ -22,7 +23,8 @@ impl OddHost {
         let desktop = gl.is_desktop();
         // SAFETY: settings that the context's version has, of objects made here.
         unsafe {
-            let program = tiny_program(context, desktop);
+            let program =
+                full_screen::program(context, "out vec4 o_color; void main() { o_color = vec4(1.0); }");
             let read_framebuffer = context.create_framebuffer().expect("a framebuffer");
             context.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(read_framebuffer));
             set_bindings(gl);
@@ -69,29 +71,6 @@ impl OddHost {
             }
         }
         self.canvas
-    }
-}
-
-/// # Safety
-/// The context is current.
-unsafe fn tiny_program(context: &glow::Context, desktop: bool) -> glow::Program {
-    let version = if desktop { "#version 330 core\n" } else { "#version 300 es\nprecision highp float;\n" };
-    let stages = [
-        (glow::VERTEX_SHADER, "void main() { gl_Position = vec4(0.0); }"),
-        (glow::FRAGMENT_SHADER, "out vec4 o_color; void main() { o_color = vec4(1.0); }"),
-    ];
-    // SAFETY: objects are made and used in this context.
-    unsafe {
-        let program = context.create_program().expect("a program");
-        for (kind, source) in stages {
-            let shader = context.create_shader(kind).expect("a shader");
-            context.shader_source(shader, &format!("{version}{source}"));
-            context.compile_shader(shader);
-            context.attach_shader(program, shader);
-            context.delete_shader(shader);
-        }
-        context.link_program(program);
-        program
     }
 }
 

@@ -3,7 +3,8 @@
 use crate::context::Gl;
 use crate::world::World;
 use antumbra_gl::{
-    Camera, DepthFormat, Frame, MaskBatch, NO_SHADOW, NormalSpace, Normals, Renderer, Surface, Technique,
+    Camera, DepthFormat, Encoding, Error, Frame, MaskBatch, NO_SHADOW, NormalSpace, Normals, Renderer,
+    Surface, Technique, Texture,
 };
 use antumbra_reference::Surface as Seen;
 use bytemuck::Pod;
@@ -82,21 +83,16 @@ impl<'w> Shot<'w> {
 
     /// With normals and ids.
     pub(crate) fn frame(&self) -> Frame<'w> {
-        let surface = Surface {
-            depth: self.depth,
-            samples: 1,
-            depth_format: self.format,
-            normals: Some(Normals { texture: self.normals, space: NormalSpace::View, biased: false }),
-            ids: Some(self.ids),
-        };
-        Frame {
-            lights: &self.world.lights,
-            occluders: &self.world.occluders,
-            meshes: &self.world.meshes,
-            receivers: &self.world.receivers,
-            ambient: self.world.ambient,
-            ..Frame::new(self.camera, self.viewport, surface)
-        }
+        let surface = Surface::from_depth(known(self.depth))
+            .with_format(self.format)
+            .with_normals(Normals::new(known(self.normals), NormalSpace::View))
+            .with_ids(known(self.ids));
+        Frame::new(self.camera, self.viewport, surface)
+            .lights(&self.world.lights)
+            .occluders(&self.world.occluders)
+            .meshes(&self.world.meshes)
+            .receivers(&self.world.receivers)
+            .ambient(self.world.ambient)
     }
 
     /// The techniques that can do a frame, with their default options; but maps are small, because software draws
@@ -111,24 +107,61 @@ impl<'w> Shot<'w> {
                 technique
             })
             .collect();
-        assert!(able.len() > 1, "analytic, and others");
+        let names: Vec<&str> = able.iter().map(Technique::name).collect();
+        let most = ["analytic", "projected", "volume", "map"];
+        assert!(most.iter().all(|name| names.contains(name)), "all that need no single plane: {names:?}");
         able
     }
 
     /// Masks of all lights, a byte a pixel; as many vectors as lights.
     pub(crate) fn masks(&self, renderer: &mut Renderer, frame: &Frame<'_>) -> Vec<Vec<u8>> {
-        let mut masks = Vec::new();
+        let mut masks: Vec<Vec<u8>> = Vec::new();
         let [_, _, width, height] = frame.viewport;
         let read = |batch: &MaskBatch| {
             assert_eq!(batch.first_light, masks.len(), "batches come in order");
-            let textures = batch.textures.map(|t| read_texture::<[u8; 4]>(&self.gl, t, [width, height]));
+            let textures =
+                batch.textures.map(|t| read_texture::<[u8; 4]>(&self.gl, t.glow(), [width, height]));
             for light in 0..batch.lights {
                 masks.push(textures[light / 4].iter().map(|texel| texel[light % 4]).collect());
             }
         };
-        renderer.masks(frame, read).expect("the frame is right");
+        each_batch(renderer, frame, read).expect("the frame is right");
+        assert_eq!(masks.len(), frame.lights.len(), "a mask a light");
+        assert!(masks.iter().all(|mask| mask.len() == (width * height) as usize), "a value a pixel");
         masks
     }
+}
+
+/// A texture of the test's.
+pub(crate) fn known(texture: glow::Texture) -> Texture {
+    // SAFETY: textures of tests last as long as the frames they are in.
+    unsafe { Texture::from_glow(texture) }
+}
+
+/// The same surface without normals and ids.
+pub(crate) fn bare(surface: &Surface) -> Surface {
+    let mut bare = *surface;
+    (bare.normals, bare.ids) = (None, None);
+    bare
+}
+
+/// Asserts that an overlay is refused for want of render targets of floats.
+pub(crate) fn assert_needs_floats(renderer: &mut Renderer, frame: &Frame<'_>) {
+    let refused = renderer.overlay(frame, Encoding::Linear);
+    assert!(matches!(refused, Err(Error::Unsupported(_))), "{}: {refused:?}", renderer.technique());
+}
+
+/// Asks for the masks of a frame, all of them.
+pub(crate) fn each_batch(
+    renderer: &mut Renderer,
+    frame: &Frame<'_>,
+    mut look: impl FnMut(&MaskBatch),
+) -> Result<(), Error> {
+    let mut batches = renderer.masks(frame)?;
+    while let Some(batch) = batches.next()? {
+        look(&batch);
+    }
+    Ok(())
 }
 
 impl Drop for Shot<'_> {

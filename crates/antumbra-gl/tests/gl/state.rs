@@ -1,11 +1,11 @@
 //! A guest leaves everything as it was and is not disturbed by what it finds.
 
-use crate::context::{Gl, in_each_api};
+use crate::context::{Gl, in_each_api, in_each_tier};
 use crate::lights::many_lights;
 use crate::odd_host::OddHost;
-use crate::shot::{Canvas, Shot, VIEWPORT};
+use crate::shot::{Canvas, Shot, VIEWPORT, each_batch, known};
 use crate::snapshot::{assert_same, has_indexed_switches, snapshot};
-use antumbra_gl::{DepthFormat, Encoding, Error, Frame, Image, Renderer, Surface, Technique, Tier};
+use antumbra_gl::{DepthFormat, Encoding, Error, Frame, Image, Renderer, Surface, Technique};
 use glam::DMat4;
 use glow::HasContext;
 
@@ -38,7 +38,7 @@ fn an_odd_host_differs_from_a_fresh_context() {
 
 #[test]
 fn every_call_leaves_the_state_as_it_was() {
-    in_each_api(|gl| {
+    in_each_tier(|gl| {
         let (few, many) = (many_lights(3), many_lights(20));
         let (shot, many_shot) = (Shot::new(gl, &few), Shot::new(gl, &many));
         let host = OddHost::new(gl, SIZE);
@@ -55,7 +55,7 @@ fn every_call_leaves_the_state_as_it_was() {
             check("set_technique");
             renderer.warm_up(&shot.frame().surface, &[]).expect("shaders");
             check("warm_up");
-            let float = renderer.caps().tier != Tier::Es3;
+            let float = gl.has_floats();
             for frame in [shot.frame(), many_shot.frame(), depth_only(&shot)] {
                 if float || frame.lights.len() <= 8 {
                     renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
@@ -63,15 +63,17 @@ fn every_call_leaves_the_state_as_it_was() {
                     renderer.overlay(&frame, Encoding::Gamma(2.2)).expect("the frame is right");
                     check("overlay in gamma");
                 }
-                renderer
-                    .masks(&frame, |_| check("masks, in the host's closure"))
-                    .expect("the frame is right");
+                let mut batches = renderer.masks(&frame).expect("the frame is right");
+                check("the first masks");
+                while batches.next().expect("memory").is_some() {
+                    check("a batch of masks");
+                }
                 check("masks");
             }
             for (what, frame) in bad_frames(&shot, &host.canvas) {
                 renderer.overlay(&frame, Encoding::Linear).expect_err(what);
                 check(what);
-                let _ = renderer.masks(&frame, |_| {});
+                let _ = each_batch(&mut renderer, &frame, |_| {});
                 check(what);
             }
         }
@@ -83,10 +85,7 @@ fn every_call_leaves_the_state_as_it_was() {
 
 fn depth_only<'w>(shot: &Shot<'w>) -> Frame<'w> {
     let frame = shot.frame();
-    Frame {
-        surface: Surface { depth_format: DepthFormat::default(), ..Surface::from_depth(shot.depth) },
-        ..frame
-    }
+    frame.surface(Surface::from_depth(known(shot.depth)).with_format(DepthFormat::default()))
 }
 
 /// Frames that are refused before and after the state has been touched.
@@ -94,12 +93,12 @@ fn bad_frames<'w>(shot: &Shot<'w>, canvas: &Canvas) -> Vec<(&'static str, Frame<
     let frame = shot.frame();
     let mut nan = frame;
     nan.camera.view = DMat4::NAN;
-    let attached = Surface { depth: canvas.colors[0], ..frame.surface };
-    let too_many_samples = Surface { samples: 1 << 20, ..frame.surface };
+    let attached = Surface::from_depth(known(canvas.colors[0]));
+    let too_many_samples = frame.surface.with_samples(1 << 20);
     vec![
         ("a bad camera", nan),
-        ("an attached surface", Frame { surface: attached, ..frame }),
-        ("too many samples", Frame { surface: too_many_samples, ..frame }),
+        ("an attached surface", frame.surface(attached)),
+        ("too many samples", frame.surface(too_many_samples)),
     ]
 }
 
@@ -122,7 +121,7 @@ fn draw_under(gl: &Gl, technique: Technique, odd: bool, count: usize) -> Drawn {
     // The overlay's second frame goes through everything that the first one set up.
     renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
     if odd {
-        renderer.masks(&shot.frame(), |_| {}).expect("the frame is right");
+        each_batch(&mut renderer, &shot.frame(), |_| {}).expect("the frame is right");
     }
     let canvas = match host {
         Ok(odd) => odd.calm_down(gl),
@@ -132,11 +131,12 @@ fn draw_under(gl: &Gl, technique: Technique, odd: bool, count: usize) -> Drawn {
         // Masks stay what they are until the next call: read what the odd state has let through.
         let mut textures = Vec::new();
         let host = OddHost::new(gl, SIZE);
-        renderer.masks(&shot.frame(), |batch| textures.push((batch.textures, batch.lights))).expect("right");
+        each_batch(&mut renderer, &shot.frame(), |batch| textures.push((batch.textures, batch.lights)))
+            .expect("right");
         host.calm_down(gl);
         let (textures, lights) = textures.pop().expect("a batch");
         for light in 0..lights {
-            let texels = crate::shot::read_texture::<[u8; 4]>(&gl.gl, textures[light / 4], SIZE);
+            let texels = crate::shot::read_texture::<[u8; 4]>(&gl.gl, textures[light / 4].glow(), SIZE);
             masks.push(texels.iter().map(|t| t[light % 4]).collect());
         }
     } else {
@@ -151,10 +151,9 @@ fn draw_under(gl: &Gl, technique: Technique, odd: bool, count: usize) -> Drawn {
 /// the picture is the same to the bit.
 #[test]
 fn an_odd_host_gets_the_same_picture() {
-    in_each_api(|gl| {
-        let float = Renderer::new(gl.gl.clone()).expect("a renderer").caps().tier != Tier::Es3;
+    in_each_tier(|gl| {
         let able = Shot::able(&Shot::new(gl, &many_lights(3)).frame());
-        let counts = if float { &[3, 20][..] } else { &[3] };
+        let counts = if gl.has_floats() { &[3, 20][..] } else { &[3] };
         for (technique, count) in able.iter().flat_map(|t| counts.iter().map(move |count| (*t, count))) {
             let [plain, odd] = [false, true].map(|odd| draw_under(gl, technique, odd, *count));
             assert!(plain.picture.iter().any(|texel| texel[0] < 200), "there are shadows");
@@ -188,7 +187,7 @@ fn the_colour_mask_of_another_buffer_stays() {
         let host = OddHost::new(gl, SIZE);
         let mut renderer = Renderer::new(gl.gl.clone()).expect("a renderer");
         renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
-        renderer.masks(&shot.frame(), |_| {}).expect("the frame is right");
+        each_batch(&mut renderer, &shot.frame(), |_| {}).expect("the frame is right");
         // SAFETY: clears a buffer of the bound framebuffer.
         unsafe {
             gl.gl.disable(glow::RASTERIZER_DISCARD);
@@ -258,7 +257,7 @@ fn a_surface_that_is_drawn_to_is_refused() {
         assert_eq!(refused, Err(Error::SurfaceAttached { image: Image::Ids }), "ids are attached");
         assert!(canvas.read(0).iter().all(|texel| *texel == [255; 4]), "nothing is drawn");
         // Masks have targets of their own: any framebuffer may be bound.
-        renderer.masks(&frame, |_| {}).expect("masks do not draw to the host's framebuffer");
+        each_batch(&mut renderer, &frame, |_| {}).expect("masks do not draw to the host's framebuffer");
         gl.assert_no_complaint("refusals");
     });
 }

@@ -4,7 +4,7 @@ use crate::cameras::{REVERSED, cameras};
 use crate::context::{Gl, in_each_api};
 use crate::depth_only::without;
 use crate::occluders::nonsense;
-use crate::shot::{Shot, VIEWPORT};
+use crate::shot::{Shot, VIEWPORT, each_batch};
 use crate::world::{ONE_OF_EACH, World};
 use antumbra_gl::Part;
 use antumbra_gl::{Area, Error, Frame, Light, MeshOccluder, Occluder, Renderer, Technique};
@@ -28,7 +28,7 @@ fn renderers(gl: &Gl) -> Vec<Renderer> {
     COUNTINGS.map(with).into()
 }
 
-/// Asserts that all lights of a frame are right, in every way of counting.
+/// Asserts that all lights of a frame are right, in every way of counting. Returns how many pixels were judged.
 fn assert_right<'r>(
     gl: &Gl,
     renderers: impl IntoIterator<Item = &'r mut Renderer>,
@@ -36,15 +36,18 @@ fn assert_right<'r>(
     frame: &Frame<'_>,
     world: &World,
     what: &str,
-) {
+) -> usize {
     let truth = world.truth(shot);
+    let mut all = 0;
     for renderer in renderers {
-        let what = format!("{:?}, {what}, {}", gl.api, renderer.technique());
-        for (light, mask) in shot.masks(renderer, frame).iter().enumerate() {
-            truth.assert_classified(light, mask, &what);
-        }
+        let what = format!("{:?}, {what}, {}", gl.kind, renderer.technique());
+        let masks = shot.masks(renderer, frame);
+        let judged: usize =
+            masks.iter().enumerate().map(|(light, mask)| truth.assert_classified(light, mask, &what)).sum();
+        all += judged;
         gl.assert_no_complaint(&what);
     }
+    all
 }
 
 /// No projection cuts a volume: finite, infinite, reversed, off-centre, parallel, and parallel from behind the eye.
@@ -59,8 +62,9 @@ fn every_projection_has_the_right_shadows() {
         let mut renderers = renderers(gl);
         for (name, camera, format) in cameras(&world) {
             let shot = Shot::with(gl, &world, camera, VIEWPORT, format);
-            assert_right(gl, &mut renderers, &shot, &shot.frame(), &world, name);
-            let frame = Frame { occluders: &endless, ..shot.frame() };
+            let judged = assert_right(gl, &mut renderers, &shot, &shot.frame(), &world, name);
+            assert!(judged > 50_000, "{name}: {judged} pixels are judged");
+            let frame = shot.frame().occluders(&endless);
             assert_right(gl, &mut renderers, &shot, &frame, &world, &format!("{name}, endless"));
         }
     });
@@ -75,11 +79,13 @@ fn every_kind_of_surface_has_the_right_shadows() {
         let mut renderers = renderers(gl);
         for (normals, ids) in [(true, true), (true, false), (false, true), (false, false)] {
             let frame = without(&shot, normals, ids);
-            assert_right(gl, &mut renderers, &shot, &frame, &world, &format!("normals {normals}, ids {ids}"));
+            let what = format!("normals {normals}, ids {ids}");
+            let judged = assert_right(gl, &mut renderers, &shot, &frame, &world, &what);
+            assert!(judged > 50_000, "{what}: {judged} pixels are judged");
             // A host without ids has none for its occluders either.
             let nameless: Vec<Occluder> = world.occluders.iter().map(|o| o.with_id(0)).collect();
             if !ids {
-                let frame = Frame { occluders: &nameless, ..frame };
+                let frame = frame.occluders(&nameless);
                 assert_right(gl, &mut renderers, &shot, &frame, &world, "nameless occluders");
             }
         }
@@ -115,6 +121,7 @@ fn an_eye_inside_volumes_sees_the_right_shadows() {
             ("along the sun", ball - sun * 5.0, ball),
             ("into the sun", ball + sun * 1.1, ball - sun * 5.0),
         ];
+        let mut judged = 0;
         for (what, eye, target) in views {
             let [e, t] = [eye, target].map(|v| format!("[{}, {}, {}]", v.x, v.y, v.z));
             let text = ONE_OF_EACH
@@ -129,8 +136,9 @@ fn an_eye_inside_volumes_sees_the_right_shadows() {
             let able = renderers
                 .iter_mut()
                 .filter(|r| what != ON_AN_EDGE || r.technique().to_string() != "volume:counting=depth-pass");
-            assert_right(gl, able, &shot, &shot.frame(), &world, what);
+            judged += assert_right(gl, able, &shot, &shot.frame(), &world, what);
         }
+        assert!(judged > 200_000, "{judged} pixels are judged");
     });
 }
 
@@ -155,7 +163,9 @@ fn parallel_sight_passes_what_is_behind_the_eye() {
                 DVec4::new(0.0, 0.0, -1.0, 1.0),
             );
             let shot = Shot::with(gl, &world, camera, VIEWPORT, antumbra_gl::DepthFormat::default());
-            assert_right(gl, &mut renderers, &shot, &shot.frame(), &world, &format!("a ball at {ball}"));
+            let what = format!("a ball at {ball}");
+            let judged = assert_right(gl, &mut renderers, &shot, &shot.frame(), &world, &what);
+            assert!(judged > 50_000, "{what}: {judged} pixels are judged");
         }
     });
 }
@@ -186,12 +196,14 @@ fn lights_in_awkward_places_are_those_of_the_closed_forms() {
         for caster in casters.map(|c| c.with_id(99)) {
             for place in places {
                 let lights = [Light::point(place, Vec3::ONE)];
-                let frame = Frame { lights: &lights, occluders: &[caster], ..shot.frame() };
+                let these = [caster];
+                let frame = shot.frame().lights(&lights).occluders(&these);
                 let expected = shot.masks(&mut analytic, &frame).remove(0);
                 // What is in a solid with the light is dark to the closed forms, and lit in truth.
                 let (center, radius) = caster.shape.bounding_sphere();
                 let inside =
                     |i: usize| shot.seen[i].is_some_and(|s| s.point.distance(center) < radius * 1.01);
+                let mut judged = [0, 0];
                 let settled = |i: usize| {
                     let (x, y) = (i % 160, i / 160);
                     let is_inner = x > 1 && y > 1 && x < 158 && y < 118;
@@ -210,11 +222,18 @@ fn lights_in_awkward_places_are_those_of_the_closed_forms() {
                     if on_surface {
                         continue;
                     }
-                    let wrong = (0..mask.len())
-                        .filter(|&i| settled(i) && !inside(i) && mask[i] != expected[i])
-                        .count();
+                    let counts: Vec<usize> = (0..mask.len()).filter(|&i| settled(i) && !inside(i)).collect();
+                    let dark = counts.iter().filter(|&&i| expected[i] == 0).count();
+                    judged = [judged[0] + counts.len(), judged[1] + dark];
+                    let wrong = counts.iter().filter(|&&i| mask[i] != expected[i]).count();
                     assert_eq!(wrong, 0, "{caster:?}, light at {place}, {}", renderer.technique());
                 }
+                assert!(
+                    on_surface || judged[0] > 20_000,
+                    "{caster:?}, light at {place}: {judged:?} are judged"
+                );
+                let above = place == DVec3::Y * 8.0;
+                assert!(!above || judged[1] > 30, "{caster:?}: a shadow below the light, {judged:?}");
             }
         }
         gl.assert_no_complaint("awkward lights");
@@ -229,20 +248,21 @@ fn casters_that_are_none_cast_nothing() {
         for mut renderer in renderers(gl) {
             for id in [0, 99] {
                 for occluder in nonsense() {
-                    let frame = Frame { occluders: &[occluder.with_id(id)], ..shot.frame() };
+                    let these = [occluder.with_id(id)];
+                    let frame = shot.frame().occluders(&these);
                     let masks = shot.masks(&mut renderer, &frame);
                     assert!(masks.iter().flatten().all(|&m| m == 255), "{occluder:?} casts a shadow");
                 }
             }
             // No casters, no lights, and lights that are nowhere.
-            let bare = Frame { occluders: &[], ..shot.frame() };
+            let bare = shot.frame().occluders(&[]);
             assert!(shot.masks(&mut renderer, &bare).iter().flatten().all(|&m| m == 255), "all is lit");
             assert_eq!(renderer.stats().polygons, 0, "nothing is drawn");
-            assert!(shot.masks(&mut renderer, &Frame { lights: &[], ..shot.frame() }).is_empty(), "no mask");
+            assert!(shot.masks(&mut renderer, &shot.frame().lights(&[])).is_empty(), "no mask");
             let nowhere = [DVec3::NAN, DVec3::INFINITY].map(|p| Light::point(p, Vec3::ONE));
             let dark = [Light::directional(DVec3::ZERO, Vec3::ONE), Light::point(DVec3::Y * 5.0, Vec3::ZERO)];
             for lights in [nowhere, dark] {
-                let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
+                let masks = shot.masks(&mut renderer, &shot.frame().lights(&lights));
                 assert!(masks.iter().flatten().all(|&m| m == 255), "{lights:?} are off");
             }
         }
@@ -264,8 +284,8 @@ fn meshes_cast_in_any_affine_pose() {
         let grown = DMat4::from_scale(DVec3::splat(1e20));
         for renderer in &mut renderers(gl) {
             let mut cast = |mesh: &Arc<TriangleMesh>, model: DMat4| {
-                let meshes = [MeshOccluder { mesh: mesh.clone(), model, id: 99 }];
-                shot.masks(renderer, &Frame { occluders: &[], meshes: &meshes, ..shot.frame() })
+                let meshes = [MeshOccluder::new(mesh.clone(), model).with_id(99)];
+                shot.masks(renderer, &shot.frame().occluders(&[]).meshes(&meshes))
             };
             let plain = cast(&cone, pose);
             assert!(
@@ -292,7 +312,8 @@ fn what_lies_in_a_flat_casters_plane_is_lit() {
         let sheet = Occluder::rectangle(DVec3::new(0.5, 0.0, 0.5), DVec3::X * 1.5, DVec3::Z * 1.5);
         for mut renderer in renderers(gl) {
             for id in [0, 99] {
-                let frame = Frame { occluders: &[sheet.with_id(id)], ..shot.frame() };
+                let these = [sheet.with_id(id)];
+                let frame = shot.frame().occluders(&these);
                 let masks = shot.masks(&mut renderer, &frame);
                 let dark = masks.iter().flatten().filter(|&&m| m != 255).count();
                 assert_eq!(
@@ -312,9 +333,12 @@ fn lights_with_an_area_are_refused() {
         let world = World::one_of_each();
         let shot = Shot::new(gl, &world);
         let lamp = world.lights[0].with_area(Area::Sphere { radius: 0.1 });
-        let frame = Frame { lights: &[world.lights[1], lamp], ..shot.frame() };
+        let these_lights = [world.lights[1], lamp];
+        let frame = shot.frame().lights(&these_lights);
         for mut renderer in renderers(gl) {
-            let Err(Error::Refused { technique: "volume", refusal }) = renderer.masks(&frame, |_| {}) else {
+            let Err(Error::Refused { technique: "volume", refusal }) =
+                each_batch(&mut renderer, &frame, |_| {})
+            else {
                 panic!("an area was accepted");
             };
             assert!(
@@ -341,7 +365,7 @@ fn the_256th_layer_turns_the_light_on() {
             .collect();
         for mut renderer in renderers(gl) {
             let mut under = |count: usize| {
-                let frame = Frame { lights: &lights, occluders: &sheets[..count], ..shot.frame() };
+                let frame = shot.frame().lights(&lights).occluders(&sheets[..count]);
                 let mask = shot.masks(&mut renderer, &frame).remove(0);
                 let is_under =
                     |s: &antumbra_reference::Surface| s.point.y == 0.0 && s.point.abs().max_element() < 1.0;

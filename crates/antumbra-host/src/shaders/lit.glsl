@@ -6,7 +6,7 @@ uniform highp uint u_id;
 uniform int u_light_count;
 
 layout(std140) uniform Lights {
-    vec4 lights[MAX_LIGHTS * 6];
+    vec4 lights[MAX_LIGHTS * 7];
 };
 
 layout(location = 0) out vec4 o_color;
@@ -23,29 +23,31 @@ vec3 line_of_sight() {
     return vec3(window * u_window.xy + u_window.zw, -1.0);
 }
 
-#ifdef FLAT_LIGHTS
-#define LIGHT(i) lights[i], lights[i + 1], lights[i + 2], lights[i + 3], lights[i + 4], lights[i + 5]
+#ifdef ANY_LIGHTS
+vec3 light_up(int i, vec3 position, vec3 normal) {
+    AntumbraLight light = AntumbraLight(lights[i], lights[i + 1], lights[i + 2], lights[i + 3], lights[i + 4],
+                                        lights[i + 5], lights[i + 6]);
+    return antumbra_irradiance(light, position, normal);
+}
 #else
-#define LIGHT(i) lights[i], lights[i + 1], lights[i + 2], lights[i + 3]
-#endif
-
-#ifndef BALL_LIGHTS
 // Lights without an area, in physical units.
-vec3 irradiance(vec4 place, vec4 color, vec4 cone, vec4 attenuation, vec3 position, vec3 normal) {
+vec3 light_up(int i, vec3 position, vec3 normal) {
+    vec4 place = lights[i];
+    vec4 cone = lights[i + 2];
     vec3 to_light = place.xyz - position * place.w;
     float square = max(dot(to_light, to_light), 1e-30);
     float distance = sqrt(square);
     vec3 direction = to_light / distance;
-    float angular = clamp(dot(-direction, cone.xyz) * cone.w + attenuation.w, 0.0, 1.0);
+    float angular = clamp(dot(-direction, cone.xyz) * cone.w + lights[i + 3].w, 0.0, 1.0);
     float falloff = place.w > 0.5 ? 1.0 / square : 1.0;
-    return color.rgb * (max(dot(normal, direction), 0.0) * angular * angular * falloff);
+    return lights[i + 1].rgb * (max(dot(normal, direction), 0.0) * angular * angular * falloff);
 }
 #endif
 
 void write_surface(vec3 position, vec3 normal) {
     vec3 e = u_ambient;
     for (int i = 0; i < u_light_count; i++) {
-        e += irradiance(LIGHT(i * 6), position, normal);
+        e += light_up(i * 7, position, normal);
     }
     o_color = vec4(u_albedo * e, 1.0);
     o_normal = vec4(normal, -position.z);

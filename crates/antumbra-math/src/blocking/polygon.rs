@@ -3,7 +3,7 @@
 use super::Footprint;
 use super::coverage::{Edge, corner_coverage};
 use crate::Plane;
-use crate::real::Vector;
+use crate::real::{Real, Vector};
 use glam::{DVec3, DVec4};
 
 /// A convex polygon and the light it blocks: the points behind the polygon's own plane and on
@@ -87,11 +87,16 @@ pub fn polygon_coverage<V: Vector>(b: &PolygonBlocker<V>, footprint: &Footprint<
     let (mut first, mut second) = (Edge::NONE, Edge::NONE);
     for (normal, offset) in b.planes() {
         let edge = Edge::new(normal.dot(footprint.point) + offset, normal, footprint);
-        if edge.coverage < first.coverage {
-            (first, second) = (edge, first);
-        } else if edge.coverage < second.coverage {
-            second = edge;
-        }
+        nearest_edges(&mut first, &mut second, edge);
     }
     corner_coverage(&first, &second)
+}
+
+/// The two edges that cut off most of the pixel, once another is looked at.
+fn nearest_edges<R: Real>(first: &mut Edge<R>, second: &mut Edge<R>, edge: Edge<R>) {
+    if edge.coverage < first.coverage {
+        (*first, *second) = (edge, *first);
+    } else if edge.coverage < second.coverage {
+        *second = edge;
+    }
 }

@@ -101,10 +101,19 @@ fn disc_part_coverage<V: Vector>(
     Edge::new(inside, gradient, footprint).coverage
 }
 
+/// An edge of a triangle across the pixel.
+fn part_edge<V: Vector>(plane: (V, V::Real), footprint: &Footprint<V>) -> Edge<V::Real> {
+    Edge::new(plane_distance(plane, footprint.point), plane.0, footprint)
+}
+
+/// How far inside of a plane, given as normal and offset, a point is.
+fn plane_distance<V: Vector>((normal, offset): (V, V::Real), point: V) -> V::Real {
+    normal.dot(point) + offset
+}
+
 /// [`part_coverage`] of a triangle: what lies inside the two edges that cut off most of the pixel.
 fn triangle_part_coverage<V: Vector>(edges: &[(V, V::Real); 3], footprint: &Footprint<V>) -> V::Real {
-    let [a, b, c] =
-        edges.map(|(normal, offset)| Edge::new(normal.dot(footprint.point) + offset, normal, footprint));
+    let [a, b, c] = edges.map(|plane| part_edge(plane, footprint));
     let (low, high) = if a.coverage < b.coverage { (a, b) } else { (b, a) };
     corner_coverage(&low, if c.coverage < high.coverage { &c } else { &high })
 }

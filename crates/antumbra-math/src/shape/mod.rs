@@ -11,6 +11,7 @@ mod triangle;
 
 pub use cone::Cone;
 pub use disc::Disc;
+pub use placing::PlacingError;
 pub use plane::Plane;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
@@ -18,6 +19,7 @@ pub use triangle::Triangle;
 
 /// Any shape that casts a shadow in closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Shape {
     /// An infinite plane: it takes the light from everything on its other side.
     Plane(Plane),

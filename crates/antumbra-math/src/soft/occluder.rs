@@ -108,11 +108,14 @@ impl<R: Real> Hidden<R> {
 
     /// The irradiance that it takes, in the units of [`Strips::irradiance`].
     pub(super) fn taken(&self, strips: &Strips<R>, nodes: &Nodes<R>) -> R {
-        let hidden = |y| self.interval(y).and(strips.seen(y));
-        let rows = nodes.support(strips.round, self.rows().and(strips.rows()), |y| {
-            let hidden = hidden(y);
-            hidden.high - hidden.low
-        });
-        nodes.integrate(strips.round, rows, |y| strips.irradiance(y, hidden(y)))
+        let all = self.rows().and(strips.rows());
+        let rows = nodes.support(strips.round, all, |y| self.width(strips, y));
+        nodes.integrate(strips.round, rows, |y| strips.irradiance(y, self.interval(y).and(strips.seen(y))))
+    }
+
+    /// The width of what it hides of the light on the strip at `y`: concave, negative where the two pass by each other.
+    fn width(&self, strips: &Strips<R>, y: R) -> R {
+        let hidden = self.interval(y).and(strips.seen(y));
+        hidden.high - hidden.low
     }
 }

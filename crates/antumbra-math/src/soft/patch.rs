@@ -25,7 +25,7 @@ pub struct Patch<V: Vector> {
 }
 
 /// A unit vector at right angles to the unit vector `axis`, and to `normal` if the two are not parallel.
-fn level<V: Vector>(axis: V, normal: V) -> V {
+fn level_axis<V: Vector>(axis: V, normal: V) -> V {
     let (zero, one) = (V::Real::ZERO, V::Real::ONE);
     let across = normal.cross(axis);
     // Of two axes of space at least one is far from parallel.
@@ -49,14 +49,14 @@ impl<V: Vector> Patch<V> {
         let reach = square.sqrt();
         let origin = to_light * (V::Real::ONE / reach);
         let tangent = radius / outside.sqrt();
-        let right = level(origin, normal);
+        let right = level_axis(origin, normal);
         let up = origin.cross(right) * tangent;
         Some(Self { origin, right: right * tangent, up, round: true, reach, tangent_2: outside })
     }
 
     /// A disc that shines along the unit vector `direction`; `None` from behind, or in its plane.
     pub fn of_disc(center: V, direction: V, radius: V::Real, point: V, normal: V) -> Option<Self> {
-        let right = level(direction, normal);
+        let right = level_axis(direction, normal);
         let half = [right * radius, direction.cross(right) * radius];
         Self::of_flat(center, direction, half, true, point)
     }
@@ -182,7 +182,7 @@ impl<R: Real> Strips<R> {
         let (low, high) = (interval.low + self.shift, interval.high + self.shift);
         let width = (high - low).max(R::ZERO);
         let (low_2, high_2) = (low * low + apart_2, high * high + apart_2);
-        let turn = (width * apart).atan2(apart_2 + low * high) / apart;
+        let turn = upper_angle(width * apart, apart_2 + low * high) / apart;
         // high / high² - low / low² over one denominator, without cancelling.
         let both = R::ONE / (low_2 * high_2);
         let even = (width * (apart_2 - low * high) * both + turn) / (apart_2 + apart_2);
@@ -195,6 +195,11 @@ impl<R: Real> Strips<R> {
     pub fn whole(&self, nodes: &Nodes<R>) -> R {
         nodes.integrate(self.round, self.rows(), |y| self.irradiance(y, self.seen(y)))
     }
+}
+
+/// The angle of (x, y), y not negative.
+fn upper_angle<R: Real>(y: R, x: R) -> R {
+    y.atan2(x)
 }
 
 /// The cosine-weighted solid angle of a ball's cap over π: its irradiance for a radiance of 1/π. `sine` is that of the

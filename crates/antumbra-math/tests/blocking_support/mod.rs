@@ -40,6 +40,7 @@ pub(crate) fn body(shape: &Shape) -> Body {
             let (width, depth) = (2.0 * r.half_right.length(), 2.0 * r.half_forward.length());
             (scene::Shape::Rectangle { width, depth }, scene::Pose { translation: r.center, rotation })
         }
+        _ => unreachable!("a shape that this test does not know"),
     };
     Body::new(&scene::Primitive {
         object: 0,
@@ -150,6 +151,7 @@ impl Oracle {
             Shape::Cone(c) => c.radius * c.height / (c.radius + c.radius.hypot(c.height)),
             Shape::Disc(Disc { radius, .. }) | Shape::Sphere(Sphere { radius, .. }) => radius,
             Shape::Plane(_) => f64::INFINITY,
+            _ => unreachable!("a shape that this test does not know"),
         }
     }
 }
@@ -229,6 +231,7 @@ pub(crate) fn point_of(random: &mut Random, setting: &Setting) -> DVec3 {
             r.center + r.half_right * (if reach == 1.0 { sign(random) } else { reach }) + r.half_forward * v
         }
         Shape::Plane(p) => setting.center + ring(p.normal, setting.size * reach * 3.0),
+        _ => unreachable!("a shape that this test does not know"),
     }
 }
 

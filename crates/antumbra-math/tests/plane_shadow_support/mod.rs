@@ -82,6 +82,7 @@ pub(crate) fn grown(shape: &Shape, grow: f64) -> Shape {
             ..r
         }),
         Shape::Plane(p) => Shape::Plane(p),
+        _ => unreachable!("a shape that this test does not know"),
     }
 }
 
@@ -104,6 +105,7 @@ pub(crate) fn blocked(shape: &Shape, light: &Light, point: DVec3) -> bool {
         }
         Shape::Cone(c) => hits_cone(&ray, c),
         Shape::Plane(p) => hits_flat(&ray, p.normal * p.offset, p.normal).is_some(),
+        _ => unreachable!("a shape that this test does not know"),
     }
 }
 
@@ -169,6 +171,7 @@ pub(crate) fn normal(shape: &Shape) -> DVec3 {
         Shape::Triangle(Triangle { vertices: [a, b, c] }) => (b - a).cross(c - a).normalize_or_zero(),
         Shape::Rectangle(r) => r.half_right.cross(r.half_forward).normalize_or_zero(),
         Shape::Plane(p) => p.normal,
+        _ => unreachable!("a shape that this test does not know"),
     }
 }
 

@@ -127,5 +127,6 @@ fn posed(shape: &Shape, turn: DQuat, shift: DVec3) -> Shape {
             let normal = turn * p.normal;
             Shape::Plane(Plane::through(point(p.normal * p.offset), normal))
         }
+        _ => unreachable!("a shape that this test does not know"),
     }
 }

@@ -1,6 +1,6 @@
 //! How passes combine with what is there.
 
-use super::set_blending;
+use super::{Blending, set_blending};
 use crate::gl::Caps;
 
 /// How a pass combines what it draws with what is there.
@@ -42,6 +42,6 @@ impl Blend {
             Self::Over => ([SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ZERO, ONE], [FUNC_ADD; 2]),
         };
         // SAFETY: the caller's.
-        unsafe { set_blending(gl, caps, true, function, equation) }
+        unsafe { set_blending(gl, caps, Blending { on: true, function, equation }) }
     }
 }

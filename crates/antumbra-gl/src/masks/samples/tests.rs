@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::input::Soft;
+use crate::twins::samples::sample_weight;
+use glam::Vec3;
 
 const SPHERE: Area = Area::Sphere { radius: 0.7 };
 

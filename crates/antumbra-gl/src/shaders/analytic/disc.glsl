@@ -12,7 +12,7 @@ struct DiscBlocker {
 float disc_coverage(DiscBlocker b, Footprint footprint, float tolerance) {
     vec3 from_center = footprint.point - b.center;
     float height = dot(b.normal, from_center);
-    vec3 behind = pixel_edge(-height - tolerance, -b.normal, footprint);
+    vec3 behind = edge_of(-height - tolerance, -b.normal, footprint);
     if (!(behind.x > 0.0)) {
         return 0.0;
     }
@@ -23,7 +23,7 @@ float disc_coverage(DiscBlocker b, Footprint footprint, float tolerance) {
     vec3 outward = hit * (1.0 / max(miss, 1e-30));
     float slant = dot(outward, b.toward - hit * b.nearness);
     vec3 gradient = (b.normal * slant - outward) * scale;
-    return corner_coverage(behind, pixel_edge(b.radius - miss, gradient, footprint));
+    return corner_coverage(behind, edge_of(b.radius - miss, gradient, footprint));
 }
 
 float blocker_coverage(Footprint footprint, SurfacePoint surface) {

@@ -17,11 +17,11 @@ float polygon_coverage(PolygonBlocker b, Footprint footprint, float tolerance) {
     vec3 first = vec3(1.0, 0.0, 0.0);
     vec3 second = first;
     nearest_edges(first, second,
-                  pixel_edge(dot(b.base.xyz, footprint.point) + b.base.w - tolerance, b.base.xyz, footprint));
+                  edge_of(dot(b.base.xyz, footprint.point) + b.base.w - tolerance, b.base.xyz, footprint));
     for (int i = 0; i < 4; i++) {
         vec4 plane = b.edges[i];
         nearest_edges(first, second,
-                      pixel_edge(dot(plane.xyz, footprint.point) + plane.w, plane.xyz, footprint));
+                      edge_of(dot(plane.xyz, footprint.point) + plane.w, plane.xyz, footprint));
     }
     return corner_coverage(first, second);
 }

@@ -19,12 +19,12 @@ void main() {
     Footprint footprint = surface_footprint(s);
     vec3 light = BLOCKER_DATA[0].xyz;
 #if LIGHT_TEXELS == 1
-    LightPatch p = sphere_patch(light, BLOCKER_DATA[0].w, s.position, normal);
+    AntumbraPatch p = antumbra_patch_of_sphere(light, BLOCKER_DATA[0].w, s.position, normal);
 #else
     vec3 direction = BLOCKER_DATA[1].xyz;
     bool round = BLOCKER_DATA[1].w > 0.5;
-    vec3 across = level_axis(direction, normal) * BLOCKER_DATA[0].w;
-    LightPatch p = flat_patch(light, direction, round ? across : BLOCKER_DATA[2].xyz,
+    vec3 across = antumbra_level_axis(direction, normal) * BLOCKER_DATA[0].w;
+    AntumbraPatch p = antumbra_patch_of_flat(light, direction, round ? across : BLOCKER_DATA[2].xyz,
                               round ? cross(direction, across) : BLOCKER_DATA[3].xyz, round, s.position);
 #endif
     bool solid = false;     // whether the point is inside
@@ -36,13 +36,13 @@ void main() {
     solid = inside && s.has_id;
     hides = hides && !inside;
     p = antialiased(p, footprint, length(center));
-    Hidden hidden = sphere_conic(center, radius, p);
+    Hidden hidden = conic_of_sphere(center, radius, p);
 #elif defined(DISC)
     vec3 center = SHAPE(0).xyz - s.position;
     vec3 axis = SHAPE(1).xyz;
     p = antialiased(p, footprint, length(center));
     hides = hides && abs(dot(center, axis)) > s.tolerance;
-    Hidden hidden = disc_conic(center, axis, SHAPE(0).w, p);
+    Hidden hidden = conic_of_disc(center, axis, SHAPE(0).w, p);
 #elif defined(CONE)
     vec3 center = SHAPE(0).xyz - s.position;
     vec3 axis = SHAPE(1).xyz;
@@ -54,13 +54,13 @@ void main() {
     p = antialiased(p, footprint, length(center + axis * (0.5 * height)));
     vec3 corners[3];
     bool has_triangle = cone_triangle(center, axis, radius, height, corners);
-    Hidden hidden = Hidden(disc_conic(center, axis, radius, p), polygon_of(corners, p),
+    Hidden hidden = Hidden(conic_of_disc(center, axis, radius, p), polygon_of(corners, p),
                            abs(dot(center, axis)) > s.tolerance, has_triangle);
 #elif defined(PLANE)
     vec3 axis = SHAPE(0).xyz;
     float height = dot(axis, s.position) - SHAPE(0).w;
     hides = hides && abs(height) > s.tolerance;
-    Hidden hidden = patch_line(p, (height < 0.0 ? axis : -axis) * p.reach) - vec3(abs(height), 0.0, 0.0);
+    Hidden hidden = antumbra_patch_line(p, (height < 0.0 ? axis : -axis) * p.reach) - vec3(abs(height), 0.0, 0.0);
 #else
     // Not in a loop: llvmpipe reads zeros where a flat input is indexed by a variable.
     vec3 corners[CORNERS];
@@ -77,8 +77,8 @@ void main() {
     p = antialiased(p, footprint, length(middle) / float(CORNERS));
     Hidden hidden = polygon_of(corners, p);
 #endif
-    Strips strips = strips_of(p, normal);
-    float taken = hidden_irradiance(hidden, strips);
+    AntumbraStrips strips = antumbra_strips_of(p, normal);
+    float taken = hidden_taken(hidden, strips);
     float whole = light_whole(p, strips, normal);
     float dark = solid ? 1.0 : hides ? clamp(taken / max(whole, 1e-30), 0.0, 1.0) : 0.0;
     if (!(dark > 0.0)) {

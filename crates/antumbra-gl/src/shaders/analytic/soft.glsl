@@ -6,7 +6,7 @@
 #define CORNERS 3
 #endif
 
-#define EMPTY vec2(FAR_AWAY, -FAR_AWAY)
+#define EMPTY vec2(ANTUMBRA_FAR_AWAY, -ANTUMBRA_FAR_AWAY)
 
 vec2 interval_hull(vec2 a, vec2 b) {
     bool no_a = !(a.x < a.y);
@@ -23,7 +23,7 @@ struct Conic {
     vec3 before;
 };
 
-Conic sphere_conic(vec3 center, float radius, LightPatch p) {
+Conic conic_of_sphere(vec3 center, float radius, AntumbraPatch p) {
     vec3 kx = cross(center, p.right);
     vec3 k1 = cross(center, p.origin);
     vec3 ky = cross(center, p.up);
@@ -33,16 +33,16 @@ Conic sphere_conic(vec3 center, float radius, LightPatch p) {
     vec3 one = vec3(dot(k1, k1), dot(k1, ky), dot(ky, ky))
              - square * vec3(dot(p.origin, p.origin), dot(p.origin, p.up), dot(p.up, p.up));
     float nearer = p.tangent_2 - (dot(center, center) - square);
-    return Conic(x, one, patch_line(p, center), vec3(nearer, 0.0, 0.0));
+    return Conic(x, one, antumbra_patch_line(p, center), vec3(nearer, 0.0, 0.0));
 }
 
-Conic disc_conic(vec3 center, vec3 normal, float radius, LightPatch p) {
+Conic conic_of_disc(vec3 center, vec3 normal, float radius, AntumbraPatch p) {
     float height = dot(center, normal);
     normal = height < 0.0 ? -normal : normal;
     vec3 ex = cross(normal, cross(p.right, center));
     vec3 e1 = cross(normal, cross(p.origin, center));
     vec3 ey = cross(normal, cross(p.up, center));
-    vec3 ahead = patch_line(p, normal);  // of origin, right, up
+    vec3 ahead = antumbra_patch_line(p, normal);  // of origin, right, up
     float square = radius * radius;
     vec3 x = vec3(dot(ex, ex), dot(ex, e1), dot(ex, ey)) - square * ahead.y * vec3(ahead.y, ahead.x, ahead.z);
     vec3 one = vec3(dot(e1, e1), dot(e1, ey), dot(ey, ey))
@@ -59,9 +59,9 @@ vec2 conic_rows(Conic c) {
     float sum = -(q + (q < 0.0 ? -root : root));
     float s = sum / p;
     float t = r / sum;
-    vec2 all = vec2(-FAR_AWAY, FAR_AWAY);
+    vec2 all = vec2(-ANTUMBRA_FAR_AWAY, ANTUMBRA_FAR_AWAY);
     vec2 between = vec2(min(s, t), max(s, t));
-    vec2 branch = c.ahead.z * c.x.x > c.ahead.y * c.x.z ? vec2(between.y, FAR_AWAY) : vec2(-FAR_AWAY, between.x);
+    vec2 branch = c.ahead.z * c.x.x > c.ahead.y * c.x.z ? vec2(between.y, ANTUMBRA_FAR_AWAY) : vec2(-ANTUMBRA_FAR_AWAY, between.x);
     vec2 open_rows = c.x.x > 0.0 ? branch : all;
     vec2 rows = p < 0.0 ? between : open_rows;
     return discriminant > 0.0 ? rows : p < 0.0 ? EMPTY : all;
@@ -79,9 +79,9 @@ vec2 conic_interval(Conic c, float y) {
     float high = max(p, q);
     bool ahead = c.ahead.x + c.ahead.z * y + c.ahead.y * (low + high) * 0.5 > 0.0;
     vec2 bounded = ahead ? vec2(low, high) : EMPTY;
-    vec2 unbounded = c.ahead.y > 0.0 ? vec2(high, FAR_AWAY) : vec2(-FAR_AWAY, low);
+    vec2 unbounded = c.ahead.y > 0.0 ? vec2(high, ANTUMBRA_FAR_AWAY) : vec2(-ANTUMBRA_FAR_AWAY, low);
     vec2 inside = c.x.x > 0.0 ? bounded : unbounded;
-    return interval_and(discriminant > 0.0 ? inside : EMPTY, line_positive(c.before, y));
+    return antumbra_interval_and(discriminant > 0.0 ? inside : EMPTY, antumbra_line_positive(c.before, y));
 }
 
 #ifdef CORNERS
@@ -91,7 +91,7 @@ struct Polygon {
     vec2 rows;
 };
 
-Polygon polygon_of(vec3 corners[CORNERS], LightPatch p) {
+Polygon polygon_of(vec3 corners[CORNERS], AntumbraPatch p) {
     vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
     float height = dot(normal, corners[0]);
     float side = height < 0.0 ? -1.0 : 1.0;
@@ -104,21 +104,21 @@ Polygon polygon_of(vec3 corners[CORNERS], LightPatch p) {
     bool in_front = true;
     for (int i = 0; i < CORNERS; i++) {
         vec3 corner = corners[i];
-        polygon.edges[i] = patch_line(p, cross(corner, corners[(i + 1) % CORNERS]) * side);
+        polygon.edges[i] = antumbra_patch_line(p, cross(corner, corners[(i + 1) % CORNERS]) * side);
         float weight = dot(corner, forward);
         in_front = in_front && weight > 0.0;
         float y = dot(corner, upward) / weight;
         rows = vec2(min(rows.x, y), max(rows.y, y));
     }
-    polygon.before = patch_line(p, normal * (side * p.reach)) - vec3(abs(height), 0.0, 0.0);
-    polygon.rows = in_front ? rows : vec2(-FAR_AWAY, FAR_AWAY);
+    polygon.before = antumbra_patch_line(p, normal * (side * p.reach)) - vec3(abs(height), 0.0, 0.0);
+    polygon.rows = in_front ? rows : vec2(-ANTUMBRA_FAR_AWAY, ANTUMBRA_FAR_AWAY);
     return polygon;
 }
 
 vec2 polygon_interval(Polygon polygon, float y) {
-    vec2 inside = line_positive(polygon.before, y);
+    vec2 inside = antumbra_line_positive(polygon.before, y);
     for (int i = 0; i < CORNERS; i++) {
-        inside = interval_and(inside, line_positive(polygon.edges[i], y));
+        inside = antumbra_interval_and(inside, antumbra_line_positive(polygon.edges[i], y));
     }
     return inside;
 }
@@ -170,11 +170,11 @@ vec2 hidden_interval(Hidden h, float y) {
 #define Hidden vec3
 
 vec2 hidden_rows(Hidden h) {
-    return vec2(-FAR_AWAY, FAR_AWAY);
+    return vec2(-ANTUMBRA_FAR_AWAY, ANTUMBRA_FAR_AWAY);
 }
 
 vec2 hidden_interval(Hidden h, float y) {
-    return line_positive(h, y);
+    return antumbra_line_positive(h, y);
 }
 #else
 #define Hidden Conic
@@ -189,13 +189,13 @@ vec2 hidden_interval(Hidden h, float y) {
 #endif
 
 // The width of what is hidden of the light on a strip: concave, negative where the two pass by each other.
-float hidden_width(Hidden h, Strips strips, float y) {
-    vec2 hidden = interval_and(hidden_interval(h, y), strips_seen(strips, y));
+float hidden_width(Hidden h, AntumbraStrips strips, float y) {
+    vec2 hidden = antumbra_interval_and(hidden_interval(h, y), antumbra_strips_seen(strips, y));
     return hidden.y - hidden.x;
 }
 
 // Where the chord from a strip inside (x, its width y) to one outside (z, w) is zero, and from there once more.
-float width_crossing(Hidden h, Strips strips, vec4 ends) {
+float crossing(Hidden h, AntumbraStrips strips, vec4 ends) {
     float first = ends.x + (ends.z - ends.x) * (ends.y / (ends.y - ends.w));
     float width = hidden_width(h, strips, first);
     float second = first + (ends.z - first) * (width / (width - ends.w));
@@ -203,16 +203,16 @@ float width_crossing(Hidden h, Strips strips, vec4 ends) {
 }
 
 // The strips on which anything is hidden.
-vec2 hidden_support(Hidden h, Strips strips) {
-    vec2 rows = interval_and(hidden_rows(h), strips_rows(strips));
+vec2 nodes_support(Hidden h, AntumbraStrips strips) {
+    vec2 rows = antumbra_interval_and(hidden_rows(h), antumbra_strips_rows(strips));
     float half_rows = max((rows.y - rows.x) * 0.5, 0.0);
     float middle = (rows.x + rows.y) * 0.5;
     bool found = false;
     vec2 last = vec2(rows.y, 0.0);
     vec4 above = vec4(0.0);  // a strip inside and its width, the next one outside, and its
     vec4 below = vec4(0.0);
-    for (int i = 0; i < NODE_COUNT; i++) {
-        vec2 node = quadrature(strips.round, i);
+    for (int i = 0; i < ANTUMBRA_NODE_COUNT(strips.square); i++) {
+        vec2 node = antumbra_nodes_of(strips.round, i);
         float y = middle + half_rows * node.x;
         float width = hidden_width(h, strips, y);
         bool inside = width > 0.0;
@@ -223,22 +223,22 @@ vec2 hidden_support(Hidden h, Strips strips) {
         found = found || inside;
         last = vec2(y, width);
     }
-    float high = above.w < 0.0 ? width_crossing(h, strips, above) : rows.y;
-    float low = below.w < 0.0 ? width_crossing(h, strips, below) : rows.x;
+    float high = above.w < 0.0 ? crossing(h, strips, above) : rows.y;
+    float low = below.w < 0.0 ? crossing(h, strips, below) : rows.x;
     return found && rows.x < rows.y ? vec2(low, high) : EMPTY;
 }
 
 // The irradiance that is hidden, in the units of strips_irradiance.
-float hidden_irradiance(Hidden h, Strips strips) {
-    vec2 rows = hidden_support(h, strips);
+float hidden_taken(Hidden h, AntumbraStrips strips) {
+    vec2 rows = nodes_support(h, strips);
     float half_rows = max((rows.y - rows.x) * 0.5, 0.0);
     float middle = (rows.x + rows.y) * 0.5;
     float sum = 0.0;
-    for (int i = 0; i < NODE_COUNT; i++) {
-        vec2 node = quadrature(strips.round, i);
+    for (int i = 0; i < ANTUMBRA_NODE_COUNT(strips.square); i++) {
+        vec2 node = antumbra_nodes_of(strips.round, i);
         float y = middle + half_rows * node.x;
-        vec2 hidden = interval_and(hidden_interval(h, y), strips_seen(strips, y));
-        sum += node.y * strips_irradiance(strips, y, hidden);
+        vec2 hidden = antumbra_interval_and(hidden_interval(h, y), antumbra_strips_seen(strips, y));
+        sum += node.y * antumbra_strips_irradiance(strips, y, hidden);
     }
     return half_rows > 0.0 ? sum * half_rows : 0.0;
 }

@@ -6,7 +6,7 @@
 
 // Edges of penumbrae that are narrower than a pixel would be jagged: the light is taken for wide enough. `apart` is the
 // occluder's distance: a pixel's patch of the receiver sees its edge move on the light by `shift`.
-LightPatch antialiased(LightPatch p, Footprint f, float apart) {
+AntumbraPatch antialiased(AntumbraPatch p, Footprint f, float apart) {
     vec3 a = cross(p.origin, f.dx);
     vec3 b = cross(p.origin, f.dy);
     float pixel = sqrt(0.5 * (dot(a, a) + dot(b, b))) * HALF_WIDTH;
@@ -19,12 +19,12 @@ LightPatch antialiased(LightPatch p, Footprint f, float apart) {
 }
 
 // The irradiance of the whole light, in the units of strips_irradiance.
-float light_whole(LightPatch p, Strips strips, vec3 normal) {
+float light_whole(AntumbraPatch p, AntumbraStrips strips, vec3 normal) {
 #if LIGHT_TEXELS == 1
     float tangent_2 = dot(p.right, p.right);
-    return cap_irradiance(sqrt(tangent_2 / (1.0 + tangent_2)), dot(normal, p.origin)) * 3.141592653589793 / tangent_2;
+    return antumbra_cap_irradiance(sqrt(tangent_2 / (1.0 + tangent_2)), dot(normal, p.origin)) * 3.141592653589793 / tangent_2;
 #else
-    return strips_whole(strips);
+    return antumbra_strips_whole(strips);
 #endif
 }
 

@@ -28,7 +28,7 @@ float sphere_coverage(SphereBlocker b, Footprint footprint, bool solid, float to
     float miss = length(cross(direction, to_center));
     vec3 nearest = to_center - direction * along;
     vec3 gradient = nearest * ((1.0 - share) / max(miss, 1e-30));
-    return pixel_edge(b.radius - miss, gradient, footprint).x;
+    return edge_of(b.radius - miss, gradient, footprint).x;
 }
 
 float blocker_coverage(Footprint footprint, SurfacePoint surface) {

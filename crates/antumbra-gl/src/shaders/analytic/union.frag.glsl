@@ -13,62 +13,10 @@ uniform highp sampler2D u_blockers;
 
 layout(location = 0) out vec4 o_visibility;
 
-#define UNION_NODES 24
-// Intervals of a strip that do not touch each other. More than these on one strip are taken together.
-#define SLOTS 6
-
-#if LIGHT_TEXELS != 1
-// Gauss's nodes and weights for rectangles.
-const vec2 LEGENDRE_24[UNION_NODES] = vec2[UNION_NODES](
-    vec2(0.995187219997, 0.012341229800), vec2(0.974728555971, 0.028531388629),
-    vec2(0.938274552003, 0.044277438817), vec2(0.886415527004, 0.059298584915),
-    vec2(0.820001985974, 0.073346481411), vec2(0.740124191579, 0.086190161532),
-    vec2(0.648093651937, 0.097618652104), vec2(0.545421471389, 0.107444270116),
-    vec2(0.433793507626, 0.115505668054), vec2(0.315042679696, 0.121670472928),
-    vec2(0.191118867474, 0.125837456347), vec2(0.064056892863, 0.127938195347),
-    vec2(-0.064056892863, 0.127938195347), vec2(-0.191118867474, 0.125837456347),
-    vec2(-0.315042679696, 0.121670472928), vec2(-0.433793507626, 0.115505668054),
-    vec2(-0.545421471389, 0.107444270116), vec2(-0.648093651937, 0.097618652104),
-    vec2(-0.740124191579, 0.086190161532), vec2(-0.820001985974, 0.073346481411),
-    vec2(-0.886415527004, 0.059298584915), vec2(-0.938274552003, 0.044277438817),
-    vec2(-0.974728555971, 0.028531388629), vec2(-0.995187219997, 0.012341229800));
-#endif
-
-vec2 union_node(bool round, int i) {
-    float angle = float(i + 1) * (3.141592653589793 / float(UNION_NODES + 1));
-    vec2 node = vec2(cos(angle), sin(angle) * (3.141592653589793 / float(UNION_NODES + 1)));
-#if LIGHT_TEXELS == 1
-    return node;
-#else
-    return round ? node : LEGENDRE_24[i];
-#endif
-}
-
 vec4 texel(int i) {
     int width = textureSize(u_blockers, 0).x;
     return texelFetch(u_blockers, ivec2(i % width, i / width), 0);
 }
-
-// Makes slots[0 .. SLOTS) hold `interval` too. What it touches becomes one with it; the rest stays apart.
-void join(inout vec2 slots[SLOTS], vec2 interval) {
-    bool placed = !(interval.x < interval.y);
-    for (int i = 0; i < SLOTS; i++) {
-        bool touches = !placed && slots[i].x <= interval.y && interval.x <= slots[i].y;
-        interval = touches ? vec2(min(interval.x, slots[i].x), max(interval.y, slots[i].y)) : interval;
-        slots[i] = touches ? EMPTY : slots[i];
-    }
-    for (int i = 0; i < SLOTS; i++) {
-        bool free = !(slots[i].x < slots[i].y);
-        bool here = !placed && (free || i == SLOTS - 1);
-        slots[i] = here ? interval_hull(interval, slots[i]) : slots[i];
-        placed = placed || here;
-    }
-}
-
-struct Tile {
-    int entries;
-    int ends[5];  // where each kind's entries end
-};
 
 // An entry's shape, unless it is the surface's own.
 bool entry_shape(int entry, SurfacePoint s, out int shape) {
@@ -88,9 +36,9 @@ bool ball_hides(int shape, SurfacePoint s, out float apart, inout bool solid) {
     return !inside;
 }
 
-Conic ball_hidden(int shape, SurfacePoint s, LightPatch p) {
+Conic ball_hidden(int shape, SurfacePoint s, AntumbraPatch p) {
     vec4 ball = texel(shape);
-    return sphere_conic(ball.xyz - s.position, ball.w, p);
+    return conic_of_sphere(ball.xyz - s.position, ball.w, p);
 }
 
 bool disc_hides(int shape, SurfacePoint s, out float apart) {
@@ -99,9 +47,9 @@ bool disc_hides(int shape, SurfacePoint s, out float apart) {
     return abs(dot(center, texel(shape + 1).xyz)) > s.tolerance;
 }
 
-Conic disc_hidden(int shape, SurfacePoint s, LightPatch p) {
+Conic disc_hidden(int shape, SurfacePoint s, AntumbraPatch p) {
     vec4 disc = texel(shape);
-    return disc_conic(disc.xyz - s.position, texel(shape + 1).xyz, disc.w, p);
+    return conic_of_disc(disc.xyz - s.position, texel(shape + 1).xyz, disc.w, p);
 }
 
 bool corners_hide(int shape, SurfacePoint s, out float apart) {
@@ -112,7 +60,7 @@ bool corners_hide(int shape, SurfacePoint s, out float apart) {
     return abs(dot(normalize(cross(b - a, c - a)), a)) > s.tolerance;
 }
 
-Polygon corners_hidden(int shape, SurfacePoint s, LightPatch p) {
+Polygon corners_hidden(int shape, SurfacePoint s, AntumbraPatch p) {
     vec3 corners[CORNERS];
     for (int i = 0; i < CORNERS; i++) {
         corners[i] = texel(shape + i).xyz - s.position;
@@ -130,7 +78,7 @@ bool cone_hides(int shape, SurfacePoint s, out float apart, inout bool solid) {
     return !inside;
 }
 
-Hidden cone_hidden(int shape, SurfacePoint s, LightPatch p) {
+Hidden cone_hidden(int shape, SurfacePoint s, AntumbraPatch p) {
     vec4 base = texel(shape);
     vec4 axis = texel(shape + 1);
     vec3 center = base.xyz - s.position;
@@ -141,15 +89,15 @@ Hidden cone_hidden(int shape, SurfacePoint s, LightPatch p) {
     corners[1] = tips[1];
     corners[2] = tips[2];
     corners[3] = (tips[2] + tips[0]) * 0.5;
-    return Hidden(disc_conic(center, axis.xyz, base.w, p), polygon_of(corners, p),
+    return Hidden(conic_of_disc(center, axis.xyz, base.w, p), polygon_of(corners, p),
                   abs(dot(center, axis.xyz)) > s.tolerance, has_triangle);
 }
 
-vec3 plane_hidden(int shape, SurfacePoint s, LightPatch p, out bool hides) {
+vec3 plane_hidden(int shape, SurfacePoint s, AntumbraPatch p, out bool hides) {
     vec4 plane = texel(shape);
     float height = dot(plane.xyz, s.position) - plane.w;
     hides = abs(height) > s.tolerance;
-    return patch_line(p, (height < 0.0 ? plane.xyz : -plane.xyz) * p.reach) - vec3(abs(height), 0.0, 0.0);
+    return antumbra_patch_line(p, (height < 0.0 ? plane.xyz : -plane.xyz) * p.reach) - vec3(abs(height), 0.0, 0.0);
 }
 
 void main() {
@@ -162,12 +110,12 @@ void main() {
     int light_at = int(v_blocker[0].x);
     vec4 light = texel(light_at);
 #if LIGHT_TEXELS == 1
-    LightPatch p = sphere_patch(light.xyz, light.w, s.position, normal);
+    AntumbraPatch p = antumbra_patch_of_sphere(light.xyz, light.w, s.position, normal);
 #else
     vec4 direction = texel(light_at + 1);
     bool round = direction.w > 0.5;
-    vec3 across = level_axis(direction.xyz, normal) * light.w;
-    LightPatch p = flat_patch(light.xyz, direction.xyz, round ? across : texel(light_at + 2).xyz,
+    vec3 across = antumbra_level_axis(direction.xyz, normal) * light.w;
+    AntumbraPatch p = antumbra_patch_of_flat(light.xyz, direction.xyz, round ? across : texel(light_at + 2).xyz,
                               round ? cross(direction.xyz, across) : texel(light_at + 3).xyz, round, s.position);
 #endif
     if (!p.faces) {
@@ -181,7 +129,7 @@ void main() {
     int planes = cones + int(v_blocker[1].z);
 
     // The nearest that hides anything says how narrow a penumbra may be.
-    float nearest = FAR_AWAY;
+    float nearest = ANTUMBRA_FAR_AWAY;
     float apart;
     int shape;
     bool solid = false;
@@ -202,10 +150,10 @@ void main() {
         nearest = hides ? min(nearest, apart) : nearest;
     }
     p = antialiased(p, footprint, min(nearest, p.reach));
-    Strips strips = strips_of(p, normal);
+    AntumbraStrips strips = antumbra_strips_of(p, normal);
 
     // The strips that any of them can reach.
-    vec2 rows = cones < planes ? vec2(-FAR_AWAY, FAR_AWAY) : EMPTY;
+    vec2 rows = cones < planes ? vec2(-ANTUMBRA_FAR_AWAY, ANTUMBRA_FAR_AWAY) : EMPTY;
     for (int e = first; e < balls; e++) {
         bool hides = entry_shape(e, s, shape) && ball_hides(shape, s, apart, solid);
         rows = hides ? interval_hull(rows, conic_rows(ball_hidden(shape, s, p))) : rows;
@@ -222,7 +170,7 @@ void main() {
         bool hides = entry_shape(e, s, shape) && cone_hides(shape, s, apart, solid);
         rows = hides ? interval_hull(rows, hidden_rows(cone_hidden(shape, s, p))) : rows;
     }
-    rows = interval_and(rows, strips_rows(strips));
+    rows = antumbra_interval_and(rows, antumbra_strips_rows(strips));
     if (!(rows.x < rows.y) && !solid) {
         discard;
     }
@@ -233,7 +181,7 @@ void main() {
     for (int i = 0; i < UNION_NODES + min(int(gl_FragCoord.y), 0); i++) {
         vec2 node = union_node(strips.round, i);
         float y = middle + half_rows * node.x;
-        vec2 seen = strips_seen(strips, y);
+        vec2 seen = antumbra_strips_seen(strips, y);
         vec2 slots[SLOTS];
         for (int k = 0; k < SLOTS; k++) {
             slots[k] = EMPTY;
@@ -241,32 +189,32 @@ void main() {
         for (int e = first; e < balls; e++) {
             bool hides = entry_shape(e, s, shape) && ball_hides(shape, s, apart, solid);
             vec2 hidden = conic_interval(ball_hidden(shape, s, p), y);
-            join(slots, hides ? interval_and(hidden, seen) : EMPTY);
+            join(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY);
         }
         for (int e = balls; e < discs; e++) {
             bool hides = entry_shape(e, s, shape) && disc_hides(shape, s, apart);
             vec2 hidden = conic_interval(disc_hidden(shape, s, p), y);
-            join(slots, hides ? interval_and(hidden, seen) : EMPTY);
+            join(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY);
         }
         for (int e = discs; e < polygons; e++) {
             bool hides = entry_shape(e, s, shape) && corners_hide(shape, s, apart);
             vec2 hidden = polygon_interval(corners_hidden(shape, s, p), y);
-            join(slots, hides ? interval_and(hidden, seen) : EMPTY);
+            join(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY);
         }
         for (int e = polygons; e < cones; e++) {
             bool hides = entry_shape(e, s, shape) && cone_hides(shape, s, apart, solid);
             vec2 hidden = hidden_interval(cone_hidden(shape, s, p), y);
-            join(slots, hides ? interval_and(hidden, seen) : EMPTY);
+            join(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY);
         }
         for (int e = cones; e < planes; e++) {
             bool hides;
             bool other = entry_shape(e, s, shape);
             vec3 beyond = plane_hidden(shape, s, p, hides);
-            join(slots, other && hides ? interval_and(line_positive(beyond, y), seen) : EMPTY);
+            join(slots, other && hides ? antumbra_interval_and(antumbra_line_positive(beyond, y), seen) : EMPTY);
         }
         float sum = 0.0;
         for (int k = 0; k < SLOTS; k++) {
-            sum += strips_irradiance(strips, y, slots[k]);
+            sum += antumbra_strips_irradiance(strips, y, slots[k]);
         }
         taken += node.y * sum;
     }

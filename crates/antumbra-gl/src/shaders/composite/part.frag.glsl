@@ -16,16 +16,13 @@ flat in highp uint v_id;            // of the vertex stage, unused
 
 layout(location = 0) out vec4 o_result;
 
-float receiver_distance(vec4 plane, SurfacePoint s) {
-    return dot(plane.xyz, s.position) + plane.w;
-}
-
 // Whether the receiver is what is seen.
 bool on_receiver(SurfacePoint s) {
-    float inside = min(min(receiver_distance(u_receiver[1], s), receiver_distance(u_receiver[2], s)),
-                       min(receiver_distance(u_receiver[3], s), receiver_distance(u_receiver[4], s)));
+    vec3 p = s.position;
+    float inside = min(min(plane_distance(u_receiver[1], p), plane_distance(u_receiver[2], p)),
+                       min(plane_distance(u_receiver[3], p), plane_distance(u_receiver[4], p)));
     bool in_plane = s.has_id && u_receiver_id != 0u ? s.id == u_receiver_id
-                                                    : abs(receiver_distance(u_receiver[0], s)) <= s.tolerance;
+                                                    : abs(plane_distance(u_receiver[0], p)) <= s.tolerance;
     return s.receives && in_plane && inside >= -s.tolerance;
 }
 

@@ -8,11 +8,15 @@ float disc_part_coverage(vec3 center, float radius, float power, Footprint footp
     float distance = length(outward);
     float inside = (power + dot(footprint.point, center * 2.0 - footprint.point)) / (radius + distance);
     vec3 gradient = outward * (-1.0 / max(distance, 1e-30));
-    return pixel_edge(inside, gradient, footprint).x;
+    return edge_of(inside, gradient, footprint).x;
+}
+
+float plane_distance(vec4 plane, vec3 point) {
+    return dot(plane.xyz, point) + plane.w;
 }
 
 vec3 part_edge(vec4 plane, Footprint footprint) {
-    return pixel_edge(dot(plane.xyz, footprint.point) + plane.w, plane.xyz, footprint);
+    return edge_of(plane_distance(plane, footprint.point), plane.xyz, footprint);
 }
 
 // Inside the two edges that cut off most of the pixel.

@@ -6,11 +6,6 @@ uniform int u_linear;                  // 1 for linear pixels, 0 for displayed o
 
 layout(location = 0) out vec4 o_result;
 
-// The linear value of a displayed one: IEC 61966-2-1. Twin: parts::linear_grey.
-float linear_grey(float k) {
-    return k <= 0.04045 ? k / 12.92 : pow((k + 0.055) / 1.055, 2.4);
-}
-
 void main() {
     vec4 sums = texelFetch(u_sums, ivec2(gl_FragCoord.xy) + u_sums_offset, SURFACE_INDEX);
     if (!(sums.w > 0.0)) {

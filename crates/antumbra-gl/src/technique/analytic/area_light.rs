@@ -67,40 +67,26 @@ impl AreaLight {
         if !(extent > 0.0) {
             return None;
         }
+        let kind = SoftShape::of(shape)?;
         let first = texels.len();
         if !alone {
             self.pack(texels);
         }
         let texel = |v: DVec3, w: f64| v.as_vec3().extend(w as f32);
-        let kind = match *shape {
-            Shape::Sphere(s) => {
-                texels.push(texel(s.center, s.radius));
-                SoftShape::Sphere
-            }
-            Shape::Disc(s) => {
-                texels.extend([texel(s.center, s.radius), texel(s.normal, 0.0)]);
-                SoftShape::Disc
-            }
+        match *shape {
+            Shape::Sphere(s) => texels.push(texel(s.center, s.radius)),
+            Shape::Disc(s) => texels.extend([texel(s.center, s.radius), texel(s.normal, 0.0)]),
             Shape::Triangle(s) => {
                 texels.extend(s.vertices.map(|v| texel(v, 0.0)));
                 if alone {
                     texels.push(texel(s.vertices[2].midpoint(s.vertices[0]), 0.0));
                 }
-                SoftShape::Triangle
             }
-            Shape::Rectangle(s) => {
-                texels.extend(s.corners().map(|v| texel(v, 0.0)));
-                SoftShape::Rectangle
-            }
-            Shape::Cone(s) => {
-                texels.extend([texel(s.base_center, s.radius), texel(s.axis, s.height)]);
-                SoftShape::Cone
-            }
-            Shape::Plane(s) => {
-                texels.push(texel(s.normal, s.offset));
-                SoftShape::Plane
-            }
-        };
+            Shape::Rectangle(s) => texels.extend(s.corners().map(|v| texel(v, 0.0))),
+            Shape::Cone(s) => texels.extend([texel(s.base_center, s.radius), texel(s.axis, s.height)]),
+            Shape::Plane(s) => texels.push(texel(s.normal, s.offset)),
+            _ => {} // not of a kind
+        }
         if texels[first..].iter().any(|texel| !texel.is_finite()) {
             texels.truncate(first);
             return None;
@@ -120,7 +106,6 @@ impl AreaLight {
     /// the penumbra. Flat shapes with corners are thrown from the corners of the light's box.
     pub(super) fn outline(&self, shape: &Shape) -> (Outline, SoftOrigins) {
         match shape {
-            Shape::Plane(_) => (Outline::Everywhere, SoftOrigins::default()),
             Shape::Triangle(s) => {
                 let [a, b, c] = s.vertices;
                 (Outline::Corners { corners: [a, b, c, c], count: 3 }, self.corners())
@@ -135,6 +120,7 @@ impl AreaLight {
                 let apex = self.center.lerp(center, self.radius / (self.radius + radius));
                 (Outline::Ball { center, radius }, SoftOrigins { points: [apex; 8], count: 1 })
             }
+            _ => (Outline::Everywhere, SoftOrigins::default()),
         }
     }
 

@@ -1,6 +1,7 @@
 //! The kinds of blockers: what hides what, each with a program of its own.
 
 use crate::gl::{AREA, Blend, COVERAGE, ProgramSource, SURFACE, Stage, When};
+use antumbra_math::Shape;
 
 /// What blocks a light without extent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +33,19 @@ pub(super) enum SoftShape {
 
 impl SoftShape {
     pub(super) const COUNT: usize = 6;
+
+    /// That of a shape; `None` if there is none.
+    pub(super) fn of(shape: &Shape) -> Option<Self> {
+        Some(match shape {
+            Shape::Sphere(_) => Self::Sphere,
+            Shape::Disc(_) => Self::Disc,
+            Shape::Triangle(_) => Self::Triangle,
+            Shape::Rectangle(_) => Self::Rectangle,
+            Shape::Cone(_) => Self::Cone,
+            Shape::Plane(_) => Self::Plane,
+            _ => return None,
+        })
+    }
 }
 
 /// A kind of blocker: what is drawn by one program, and blended in one way.
@@ -93,13 +107,13 @@ macro_rules! hard {
                 ],
             },
             uniforms: &[],
-            when: When::Always,
+            when: When::ALWAYS,
         }
     };
 }
 
 macro_rules! soft {
-    ($name:literal, $when:ident, $light:literal, $texels:literal, $shape:literal) => {
+    ($name:literal, $when:expr, $light:literal, $texels:literal, $shape:literal) => {
         ProgramSource {
             name: $name,
             vertex: blocker!($texels),
@@ -124,13 +138,13 @@ macro_rules! soft {
                 ],
             },
             uniforms: &[],
-            when: When::$when,
+            when: $when,
         }
     };
 }
 
 macro_rules! union {
-    ($name:literal, $when:ident, $light:literal) => {
+    ($name:literal, $when:expr, $light:literal) => {
         ProgramSource {
             name: $name,
             vertex: blocker!("2"),
@@ -146,11 +160,12 @@ macro_rules! union {
                     AREA,
                     include_str!("../../shaders/analytic/soft.glsl"),
                     include_str!("../../shaders/analytic/soft_light.glsl"),
+                    include_str!("../../shaders/analytic/union.glsl"),
                     include_str!("../../shaders/analytic/union.frag.glsl"),
                 ],
             },
             uniforms: &[],
-            when: When::$when,
+            when: $when,
         }
     };
 }
@@ -161,20 +176,20 @@ pub(crate) const PROGRAMS: &[ProgramSource] = &[
     hard!("sphere", "2", "sphere.glsl"),
     hard!("disc", "3", "disc.glsl"),
     hard!("polygon", "5", "polygon.glsl"),
-    soft!("sphere light, sphere", Balls, "1", "2", "SPHERE"),
-    soft!("sphere light, disc", Balls, "1", "3", "DISC"),
-    soft!("sphere light, triangle", Balls, "1", "4", "CORNERS 3"),
-    soft!("sphere light, rectangle", Balls, "1", "5", "CORNERS 4"),
-    soft!("sphere light, cone", Balls, "1", "3", "CONE"),
-    soft!("sphere light, plane", Balls, "1", "2", "PLANE"),
-    soft!("flat light, sphere", Flats, "4", "5", "SPHERE"),
-    soft!("flat light, disc", Flats, "4", "6", "DISC"),
-    soft!("flat light, triangle", Flats, "4", "7", "CORNERS 3"),
-    soft!("flat light, rectangle", Flats, "4", "8", "CORNERS 4"),
-    soft!("flat light, cone", Flats, "4", "6", "CONE"),
-    soft!("flat light, plane", Flats, "4", "5", "PLANE"),
-    union!("sphere light, all", BallsExactly, "1"),
-    union!("flat light, all", FlatsExactly, "4"),
+    soft!("sphere light, sphere", When::BALLS, "1", "2", "SPHERE"),
+    soft!("sphere light, disc", When::BALLS, "1", "3", "DISC"),
+    soft!("sphere light, triangle", When::BALLS, "1", "4", "CORNERS 3"),
+    soft!("sphere light, rectangle", When::BALLS, "1", "5", "CORNERS 4"),
+    soft!("sphere light, cone", When::BALLS, "1", "3", "CONE"),
+    soft!("sphere light, plane", When::BALLS, "1", "2", "PLANE"),
+    soft!("flat light, sphere", When::FLATS, "4", "5", "SPHERE"),
+    soft!("flat light, disc", When::FLATS, "4", "6", "DISC"),
+    soft!("flat light, triangle", When::FLATS, "4", "7", "CORNERS 3"),
+    soft!("flat light, rectangle", When::FLATS, "4", "8", "CORNERS 4"),
+    soft!("flat light, cone", When::FLATS, "4", "6", "CONE"),
+    soft!("flat light, plane", When::FLATS, "4", "5", "PLANE"),
+    union!("sphere light, all", When::BALLS.exactly(), "1"),
+    union!("flat light, all", When::FLATS.exactly(), "4"),
 ];
 
 #[cfg(test)]

@@ -17,8 +17,8 @@ use crate::gl::{Caps, UploadRing};
 use crate::input::{Choice, Error, Part, Reason, Refusal, Scenery};
 use crate::masks::{Batch, Counts};
 use glow::HasContext;
-use kind::Kind;
 pub(super) use kind::PROGRAMS;
+use kind::{Kind, SoftShape};
 use pairs::PairBuilder;
 
 /// What it is.
@@ -87,8 +87,11 @@ impl Behavior for Options {
 }
 
 pub(super) fn refusal(_: &Options, scenery: &Scenery<'_>) -> Option<Refusal> {
-    let refusal = || Refusal::new(Part::Mesh(0), Reason::NoFormForMeshes);
-    (!scenery.meshes.is_empty()).then(refusal)
+    if !scenery.meshes.is_empty() {
+        return Some(Refusal::new(Part::Mesh(0), Reason::NoFormForMeshes));
+    }
+    let other = scenery.occluders.iter().position(|o| SoftShape::of(&o.shape).is_none())?;
+    Some(Refusal::new(Part::Occluder(other), Reason::NoFormForShape))
 }
 
 /// The OpenGL objects, and the memory of the packing.

@@ -69,8 +69,8 @@ impl PairBuilder {
             }
             let place = light.place.transformed(&view.view);
             match AreaLight::new(light.area, place.homogeneous().truncate(), &view.view) {
-                None => self.pack_light(i, &place, view, tiles),
-                Some(area) => self.pack_area_light(i, &area, &place, view, tiles, exact),
+                None => self.pack_light(i, light, &place, view, tiles),
+                Some(area) => self.pack_area_light((i, light), &area, &place, view, tiles, exact),
             }
         }
         self.vertices.clear();
@@ -89,6 +89,7 @@ impl PairBuilder {
     fn pack_light(
         &mut self,
         index: usize,
+        light: &Light,
         light_vs: &antumbra_math::Light,
         view: &View,
         tiles: &mut TileGrid,
@@ -97,7 +98,7 @@ impl PairBuilder {
         for &(shape, id, center, radius) in &self.shapes_vs {
             self.counts.pairs += 1;
             let drawn_before = self.counts.polygons;
-            if !light_vs.may_reach(center, radius)
+            if !light.may_reach(light_vs, center, radius)
                 || hides_its_own_shadow(&shape, id, light_vs, view.eye_vs())
             {
                 continue;
@@ -121,7 +122,7 @@ impl PairBuilder {
     /// `place` is where the light's centre is.
     fn pack_area_light(
         &mut self,
-        index: usize,
+        (index, light): (usize, &Light),
         area: &AreaLight,
         place: &antumbra_math::Light,
         view: &View,
@@ -134,9 +135,10 @@ impl PairBuilder {
             self.union.begin(view.size());
             area.pack(&mut self.texels);
         }
-        for &(shape, id, ..) in &self.shapes_vs {
+        for &(shape, id, center, radius) in &self.shapes_vs {
             self.counts.pairs += 1;
-            if area.is_beside(&shape) && hides_its_own_shadow(&shape, id, place, view.eye_vs()) {
+            let hides_all = area.is_beside(&shape) && hides_its_own_shadow(&shape, id, place, view.eye_vs());
+            if hides_all || !light.may_reach(place, center, radius) {
                 continue;
             }
             let first = self.texels.len();

@@ -20,6 +20,8 @@ pub use antumbra_math::composite::SphereForm;
 use antumbra_math::plane_shadow::{Bounds, PlaneFrame};
 use components::Collected;
 use glow::HasContext;
+#[cfg(test)]
+pub(crate) use parts::linear_grey;
 use parts::{Drawn, PartBuilder};
 
 /// What it is.
@@ -155,7 +157,7 @@ macro_rules! part_program {
                 ],
             },
             uniforms: &["u_receiver", "u_receiver_id", "u_darkness"],
-            when: When::Always,
+            when: When::ALWAYS,
         }
     };
 }
@@ -165,7 +167,12 @@ macro_rules! screen_program {
         ProgramSource::screen(
             $name,
             "",
-            &[COVERAGE, SURFACE, include_str!(concat!("../../shaders/composite/", $file))],
+            &[
+                COVERAGE,
+                SURFACE,
+                include_str!("../../shaders/composite/grey.glsl"),
+                include_str!(concat!("../../shaders/composite/", $file)),
+            ],
             $uniforms,
         )
     };

@@ -108,7 +108,7 @@ impl PartBuilder {
         self.is_drawn.clear();
         self.is_drawn.resize(self.casters.len(), false);
         for (i, (shape, center, radius)) in self.casters.iter().enumerate() {
-            if light.place.may_reach(*center, *radius)
+            if light.may_reach(&light.place, *center, *radius)
                 && let Ok(shadow) = composite::cast(shape, &light.place, &ground.frame, self.sphere)
             {
                 self.of_light.extend(shadow.parts().map(|part| (*part, i)));
@@ -189,8 +189,8 @@ fn texels(part: &PlacedPart<DVec3>, grey: f32) -> [Vec4; 4] {
     }
 }
 
-/// The linear value of a displayed one: IEC 61966-2-1. The twin of that in `soft_paint.frag.glsl`.
-fn linear_grey(k: f64) -> f64 {
+/// The linear value of a displayed one: IEC 61966-2-1. The twin of that in `grey.glsl`.
+pub(crate) fn linear_grey(k: f64) -> f64 {
     if k <= 0.04045 { k / 12.92 } else { ((k + 0.055) / 1.055).powf(2.4) }
 }
 

@@ -3,7 +3,7 @@
 use super::State;
 use super::fit::Fit;
 use crate::gl::RasterGuard;
-use crate::input::{Error, Light};
+use crate::input::{Error, Light, Texture};
 use crate::masks::{DepthMap, DepthScale, MapFace};
 use crate::technique::Pass;
 
@@ -20,7 +20,7 @@ impl State {
         let Some(fit) = self.fit(pass, light) else { return Ok(None) };
         // SAFETY: the caller's.
         unsafe {
-            let _raster = RasterGuard::new(pass.gl);
+            let _raster = RasterGuard::new(pass.gl, pass.host);
             self.draw_fitted(pass, &fit)?;
         }
         let Some((texture, _)) = self.target.objects() else { return Ok(None) };
@@ -32,7 +32,7 @@ impl State {
             *shown = Some(MapFace { corner: corner.as_uvec2().to_array(), to_map });
         }
         Ok(Some(DepthMap {
-            texture,
+            texture: Texture::own(texture),
             size: self.target.size(),
             side: self.options.size,
             scale: fit.some_face.depth(),

@@ -153,7 +153,7 @@ mod tests {
         let mut random = fastrand::Rng::with_seed(3);
         for _ in 0..2000 {
             let p = DVec3::from_array([(); 3].map(|()| random.f64() * 2.0 - 1.0));
-            let seen = eyes[super::super::receiver::map_face(p.as_vec3())].see(p);
+            let seen = eyes[crate::twins::map::map_face(p.as_vec3())].see(p);
             assert!(
                 seen.z > 0.0 && seen.truncate().abs().max_element() <= seen.z * (1.0 + 1e-6),
                 "{p}: {seen}"

@@ -69,7 +69,7 @@ impl Map<'_> {
             tiles[i] = Vec4::new(corner.x as f32, corner.y as f32, last.x as f32, last.y as f32);
         }
         let to_light = (from_light.inverse() * view.view.inverse()).as_mat4();
-        let place = ShaderLight::new(light, &from_light.inverse()).place;
+        let place = ShaderLight::new(light, from_light.inverse()).place;
         let bias =
             [options.constant_bias, options.slope_bias, options.normal_offset, fit::radius(options) as f32];
         let mut channel = [0.0; GROUP_LIGHTS];

@@ -10,8 +10,6 @@ mod face;
 mod fit;
 mod lookup;
 mod reach;
-pub mod receiver;
-pub mod soft;
 mod target;
 mod window;
 
@@ -218,14 +216,14 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
         vertex: Stage { defines: "", parts: &[include_str!("../../shaders/map/caster.vert.glsl")] },
         fragment: Stage { defines: "", parts: &[include_str!("../../shaders/map/caster.frag.glsl")] },
         uniforms: &["u_clip"],
-        when: When::Always,
+        when: When::ALWAYS,
     },
     ProgramSource {
         name: "map of a plane",
         vertex: Stage { defines: "", parts: &[include_str!("../../shaders/map/plane.vert.glsl")] },
         fragment: Stage { defines: "", parts: &[include_str!("../../shaders/map/plane.frag.glsl")] },
         uniforms: &["u_slope", "u_middle"],
-        when: When::Always,
+        when: When::ALWAYS,
     },
     lookup_program!("lookup", "NONE"),
     lookup_program!("lookup with PCF", "PCF"),
@@ -299,7 +297,7 @@ impl Method for State {
     unsafe fn draw_visibility(&mut self, pass: &Pass<'_>, batch: &mut Batch<'_>) -> Result<(), Error> {
         // SAFETY: the caller's.
         unsafe {
-            let _raster = RasterGuard::new(pass.gl);
+            let _raster = RasterGuard::new(pass.gl, pass.host);
             for (index, light) in batch.lights.iter().enumerate() {
                 if light.intensity != glam::Vec3::ZERO {
                     self.draw_light(pass, batch, index, light)?;
@@ -350,7 +348,7 @@ impl State {
         } else {
             let texel = fit.some_face.texel(f64::from(options.size));
             let Self { tiles, proxy, around, .. } = self;
-            reach::touch(tiles, proxy, around, &light.place, (texel, fit::margin(&options)), pass.view);
+            reach::touch(tiles, proxy, around, light, (texel, fit::margin(&options)), pass.view);
         }
         if self.tiles.is_untouched() {
             return Ok(());

@@ -1,6 +1,6 @@
 //! The texture that every light's map is drawn to in turn.
 
-use crate::gl::Caps;
+use crate::gl::{Caps, texture_storage};
 use crate::input::{Error, Resource, Unsupported};
 use glam::DVec2;
 use glow::HasContext;
@@ -52,28 +52,8 @@ impl MapTarget {
             self.made = Some((texture, framebuffer));
             gl.active_texture(glow::TEXTURE3);
             gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-            gl.tex_image_2d(
-                glow::TEXTURE_2D,
-                0,
-                glow::DEPTH_COMPONENT32F as i32,
-                width as i32,
-                height as i32,
-                0,
-                glow::DEPTH_COMPONENT,
-                glow::FLOAT,
-                glow::PixelUnpackData::Slice(None),
-            );
             // Texels are fetched and compared in the shader, each with a depth of its own.
-            for (name, value) in [
-                (glow::TEXTURE_MIN_FILTER, glow::NEAREST),
-                (glow::TEXTURE_MAG_FILTER, glow::NEAREST),
-                (glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE),
-                (glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE),
-                (glow::TEXTURE_COMPARE_MODE, glow::NONE),
-            ] {
-                gl.tex_parameter_i32(glow::TEXTURE_2D, name, value as i32);
-            }
-            gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_MAX_LEVEL, 0);
+            texture_storage(gl, glow::DEPTH_COMPONENT32F, width as i32, height as i32);
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(framebuffer));
             gl.framebuffer_texture_2d(
                 glow::DRAW_FRAMEBUFFER,

@@ -61,7 +61,7 @@ impl Eye {
         Self { origin, axes: rows.transpose(), central }
     }
 
-    /// The six faces of a cube round `origin`, in the order of [`super::receiver::map_face`].
+    /// The six faces of a cube round `origin`, in the order of `map_face` in `receiver.glsl`.
     pub(super) fn cube(origin: DVec3) -> [Self; 6] {
         let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
         [(x, y, z), (-x, y, z), (y, z, x), (-y, z, x), (z, x, y), (-z, x, y)].map(|(forward, right, up)| {

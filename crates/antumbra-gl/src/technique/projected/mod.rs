@@ -137,7 +137,7 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
         vertex: caster_stage!("caster.vert.glsl"),
         fragment: caster_stage!("caster.frag.glsl"),
         uniforms: &["u_to_clip", "u_height", "u_shade"],
-        when: When::Always,
+        when: When::ALWAYS,
     },
     screen_program!("projected paint", "paint.frag.glsl", &["u_painted", "u_painted_offset", "u_exponent"]),
 ];
@@ -230,11 +230,11 @@ impl State {
         let last_mark = if once { MARKS } else { 1 };
         // SAFETY: the caller's; the guard outlives the settings.
         unsafe {
-            if let Err(error) = self.stencil.attach(gl, target) {
+            if let Err(error) = self.stencil.attach(pass, target) {
                 StencilBuffer::detach(gl, target);
                 return Err(error);
             }
-            let raster = RasterGuard::new(gl);
+            let raster = RasterGuard::new(gl, pass.host);
             gl.enable(glow::STENCIL_TEST);
             gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[0]);
             let mut mark = 0;

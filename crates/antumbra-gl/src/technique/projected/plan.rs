@@ -218,7 +218,7 @@ impl Posed {
         // The middle of a box, whatever its pose.
         let center = (first + last) * 0.5;
         let radius = self.corners.iter().map(|c| c.truncate().distance(center)).fold(0.0, f64::max);
-        light.place.may_reach(center, radius)
+        light.may_reach(&light.place, center, radius)
     }
 
     /// `shadow`: the shadows of the corners of its box.

@@ -101,7 +101,7 @@ pub(super) const PROGRAMS: &[ProgramSource] = &[
             parts: &[COVERAGE, SURFACE, include_str!("../../shaders/volume/count.frag.glsl")],
         },
         uniforms: &[],
-        when: When::Always,
+        when: When::ALWAYS,
     },
     ProgramSource::screen(
         "volume_resolve",
@@ -202,7 +202,7 @@ impl Method for State {
             let volumes = self.volumes.upload(gl, &self.packer.vertices)?;
             let tiles = bytemuck::cast_slice(&self.packer.tiles);
             let tiles = self.tiles.upload(gl, pass.caps, tiles, &mut Vec::new())?.vertex_array;
-            let _guard = RasterGuard::new(gl);
+            let _guard = RasterGuard::new(gl, pass.host);
             Blend::Min.apply(gl, *pass.caps);
             gl.enable(glow::STENCIL_TEST);
             gl.enable(glow::SCISSOR_TEST);
@@ -248,7 +248,7 @@ impl State {
     ) -> Result<(), Error> {
         // SAFETY: the caller's; the host's colour mask is the guard's to put back, and all channels are antumbra's.
         unsafe {
-            stencil.attach(pass.gl, mask)?;
+            stencil.attach(pass, mask)?;
             Self::draw_mask(pass, draws, volumes, tiles);
             set_color_mask(pass.gl, *pass.caps, [true; 4]);
         }

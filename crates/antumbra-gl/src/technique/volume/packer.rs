@@ -4,6 +4,7 @@ use super::Counting;
 use super::boundary::{Boundary, Cap};
 use super::eye::{is_clear, layers};
 use super::polygon::{Eye, Front, front};
+use crate::input::Light as Source;
 use crate::masks::{Batch, Counts};
 use crate::screen::{
     ProxyBuilder, TileGrid, View, crossing, hides_its_own_shadow, nearest_end, seen_half_spaces,
@@ -131,7 +132,7 @@ impl Packer {
             for i in 0..self.posed.len() {
                 self.counts.pairs += 1;
                 let drawn_before = self.counts.polygons;
-                self.pack_pair(i, &place, &eye, pass, counting);
+                self.pack_pair(i, (light, &place), &eye, pass, counting);
                 self.counts.drawn += usize::from(self.counts.polygons > drawn_before);
             }
             if self.vertices.len() == first {
@@ -149,10 +150,17 @@ impl Packer {
         }
     }
 
-    fn pack_pair(&mut self, index: usize, light: &Light, eye: &Eye, pass: &Pass<'_>, counting: Counting) {
+    fn pack_pair(
+        &mut self,
+        index: usize,
+        (source, light): (&Source, &Light),
+        eye: &Eye,
+        pass: &Pass<'_>,
+        counting: Counting,
+    ) {
         let posed = &self.posed[index];
         let Posed { center, radius, id, is_mesh, .. } = *posed;
-        if !light.may_reach(center, radius) {
+        if !source.may_reach(light, center, radius) {
             return;
         }
         let l = light.homogeneous();

@@ -7,7 +7,7 @@ use crate::lights::many_lights;
 use crate::occluders::nonsense;
 use crate::odd_host::OddHost;
 use crate::samples;
-use crate::shot::Shot;
+use crate::shot::{Shot, each_batch};
 use crate::snapshot::{assert_same, snapshot};
 use crate::world::{ONE_OF_EACH, World};
 use antumbra_gl::Part;
@@ -23,7 +23,7 @@ fn casters_and_receivers_that_are_none_do_nothing() {
         let mut renderer = renderer(gl, "projected");
         let alone = shot.masks(&mut renderer, &shot.frame());
         let casters = nonsense();
-        let masks = shot.masks(&mut renderer, &Frame { occluders: &casters, ..shot.frame() });
+        let masks = shot.masks(&mut renderer, &shot.frame().occluders(&casters));
         assert!(masks.iter().flatten().all(|&m| m == 255), "nonsense casts nothing");
         let mut receivers: Vec<Receiver> = [f64::NAN, f64::INFINITY, 0.0]
             .into_iter()
@@ -40,18 +40,18 @@ fn casters_and_receivers_that_are_none_do_nothing() {
                     ReceiverShape::Plane(Plane { normal: DVec3::Y, offset: bad.x / bad.x }),
                 ]
             })
-            .map(|shape| Receiver { shape, id: 1 })
+            .map(|shape| Receiver::new(shape).with_id(1))
             .collect();
-        let masks = shot.masks(&mut renderer, &Frame { receivers: &receivers, ..shot.frame() });
+        let masks = shot.masks(&mut renderer, &shot.frame().receivers(&receivers));
         assert!(masks.iter().flatten().all(|&m| m == 255), "nothing falls on nonsense");
         receivers.extend(&world.receivers);
         let mut occluders = nonsense();
         occluders.extend(&world.occluders);
-        let frame = Frame { receivers: &receivers, occluders: &occluders, ..shot.frame() };
+        let frame = shot.frame().receivers(&receivers).occluders(&occluders);
         assert!(shot.masks(&mut renderer, &frame) == alone, "nor is it in the way of the others");
         let bad = DVec3::new(0.0, f64::NAN, 1.0);
         let lights = [Light::point(bad, Vec3::ONE), Light::directional(bad, Vec3::ONE)];
-        let masks = shot.masks(&mut renderer, &Frame { lights: &lights, ..shot.frame() });
+        let masks = shot.masks(&mut renderer, &shot.frame().lights(&lights));
         assert!(masks.iter().flatten().all(|&m| m == 255), "lights that are nowhere take nothing");
         gl.assert_no_complaint("nonsense");
     });
@@ -71,13 +71,13 @@ fn every_way_of_drawing_leaves_no_trace() {
                 renderer.overlay(&shot.frame(), Encoding::Linear).expect("the frame is right");
                 assert_same(&before, &snapshot(gl), technique);
                 let inside = || assert_same(&before, &snapshot(gl), technique);
-                renderer.masks(&shot.frame(), |_| inside()).expect("the frame is right");
+                each_batch(&mut renderer, &shot.frame(), |_| inside()).expect("the frame is right");
                 assert_same(&before, &snapshot(gl), technique);
                 gl.assert_no_complaint(technique);
                 let frame = shot.frame();
                 let counted = allocation_counter::measure(|| {
                     renderer.overlay(&frame, Encoding::Linear).expect("the frame is right");
-                    renderer.masks(&frame, |_| {}).expect("the frame is right");
+                    each_batch(&mut renderer, &frame, |_| {}).expect("the frame is right");
                 });
                 (counted.count_total, live(&gl.gl))
             };
@@ -98,26 +98,30 @@ fn what_it_cannot_do_is_refused() {
     in_each_api(|gl| {
         let world = World::one_of_each();
         let shot = Shot::new(gl, &world);
-        let refused = |technique: &str, frame: &Frame<'_>| match renderer(gl, technique).masks(frame, |_| {})
-        {
+        let refused = |technique: &str, frame: &Frame<'_>| match each_batch(
+            &mut renderer(gl, technique),
+            frame,
+            |_| {},
+        ) {
             Err(Error::Refused { technique: "projected", refusal }) => refusal,
             other => panic!("{technique}: {other:?}"),
         };
         let frame = shot.frame();
-        let nowhere = refused("projected", &Frame { receivers: &[], ..frame });
+        let nowhere = refused("projected", &frame.receivers(&[]));
         assert!(
             nowhere.part == Part::Receivers && nowhere.reason.to_string().contains("none to fall on"),
             "{nowhere:?}"
         );
         let area = world.lights[0].with_area(Area::Sphere { radius: 0.1 });
         let lights = [world.lights[1], area];
-        assert_eq!(refused("projected", &Frame { lights: &lights, ..frame }).part, Part::Light(1), "an area");
+        assert_eq!(refused("projected", &frame.lights(&lights)).part, Part::Light(1), "an area");
         let options = refused("projected:stencil=off", &frame);
         assert!(
             options.part == Part::Options && options.reason.to_string().contains("shade=paper"),
             "{options:?}"
         );
-        renderer(gl, "projected:shade=paper:stencil=off").masks(&frame, |_| {}).expect("for teaching");
+        each_batch(&mut renderer(gl, "projected:shade=paper:stencil=off"), &frame, |_| {})
+            .expect("for teaching");
     });
 }
 
@@ -130,12 +134,12 @@ fn counts_are_of_casters_receivers_and_triangles() {
         let mut renderer = renderer(gl, "projected");
         // The triangle alone, over a floor that two lights and a spot shine on.
         let triangle = [*world.occluders.last().expect("a triangle")];
-        let frame = Frame { occluders: &triangle, receivers: &world.receivers[..1], ..shot.frame() };
-        renderer.masks(&frame, |_| {}).expect("the frame is right");
+        let frame = shot.frame().occluders(&triangle).receivers(&world.receivers[..1]);
+        each_batch(&mut renderer, &frame, |_| {}).expect("the frame is right");
         let stats = renderer.stats();
         assert_eq!(stats.pairs, 3, "three lights, a caster and a receiver");
         assert!((1..=3).contains(&stats.polygons), "one triangle for each light in sight: {stats:?}");
-        renderer.masks(&Frame { receivers: &world.receivers, ..frame }, |_| {}).expect("the frame is right");
+        each_batch(&mut renderer, &frame.receivers(&world.receivers), |_| {}).expect("the frame is right");
         assert_eq!(renderer.stats().pairs, 6, "and two receivers");
     });
 }

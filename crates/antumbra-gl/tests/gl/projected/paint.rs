@@ -5,7 +5,7 @@ use crate::context::in_each_api;
 use crate::lights::overlay;
 use crate::shot::Shot;
 use crate::world::World;
-use antumbra_gl::{Encoding, Frame};
+use antumbra_gl::Encoding;
 
 /// How often each value is in a picture that was white.
 fn values(picture: &[[u8; 4]]) -> Vec<(u8, usize)> {
@@ -28,7 +28,7 @@ fn paint_is_blended_twice_without_the_stencil_alone() {
                 .replace("\"o\"", "\"sheet\"");
         let world = over_floor(&point([0.0, 5.0, 1.0]), &balls);
         let shot = Shot::new(gl, &world);
-        let frame = Frame { receivers: &world.receivers[..1], ..shot.frame() };
+        let frame = shot.frame().receivers(&world.receivers[..1]);
         let gamma = Encoding::Gamma(2.2);
         let once = values(&overlay(gl, &mut renderer(gl, "projected:shade=paper"), &frame, gamma));
         assert!(once.len() == 2 && HALF.contains(&once[0].0) && once[1].0 == 255, "half and whole: {once:?}");
@@ -59,7 +59,7 @@ fn paint_is_blended_once_for_each_light() {
         let shot = Shot::new(gl, &world);
         for count in [2, 6] {
             let lights = vec![world.lights[0]; count];
-            let frame = Frame { lights: &lights, ..shot.frame() };
+            let frame = shot.frame().lights(&lights);
             let mut renderer = renderer(gl, "projected:shade=paper");
             let found = values(&overlay(gl, &mut renderer, &frame, Encoding::Gamma(2.2)));
             let expected = 255.0 * 0.5f64.powi(count as i32);

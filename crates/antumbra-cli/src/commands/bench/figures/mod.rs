@@ -129,12 +129,12 @@ mod tests {
                     Scene::parse(&place.toml, place.scene.as_ref()).unwrap_or_else(|error| panic!("{error}"));
                 let occluders = scene.objects.iter().filter(|object| object.casts_shadow).count();
                 let varied = match name {
-                    FigureName::Primitives | FigureName::Soft => continue,
-                    FigureName::Lights => scene.lights.len(),
-                    FigureName::Occluders => occluders,
-                    FigureName::Resolution => place.size.width as usize,
+                    FigureName::Primitives | FigureName::Soft => None,
+                    FigureName::Lights => Some(scene.lights.len()),
+                    FigureName::Occluders => Some(occluders),
+                    FigureName::Resolution => Some(place.size.width as usize),
                 };
-                assert_eq!(varied as f64, place.at, "{}", place.scene);
+                assert!(varied.is_none_or(|varied| varied as f64 == place.at), "{}: {varied:?}", place.scene);
                 let analytic = Technique::from(antumbra::Technique::default());
                 assert_eq!(analytic.objection(&scene, 0.0), None, "{} is drawn", place.scene);
             }
