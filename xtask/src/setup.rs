@@ -83,6 +83,30 @@ pub(crate) fn run() -> Result<(), String> {
     Err(format!("installed {}, and still missing: {}", packages.join(" "), what.join("; ")))
 }
 
+/// The target of browsers.
+pub(crate) const WEB: &str = "wasm32-unknown-unknown";
+
+/// Sees to it that the standard library is there for another target.
+///
+/// # Errors
+/// Why it is not, where it can be brought neither by rustup nor was there.
+pub(crate) fn target(name: &str) -> Result<(), String> {
+    let installed = || {
+        output("rustc", &["--print", "target-libdir", "--target", name])
+            .is_some_and(|folder| Path::new(folder.trim()).is_dir())
+    };
+    if installed() {
+        return Ok(());
+    }
+    println!("setup: rustup target add {name}");
+    let added = succeeds("rustup", &["target", "add", name]);
+    if added && installed() {
+        Ok(())
+    } else {
+        Err(format!("`rustup target add {name}` did not bring the target"))
+    }
+}
+
 fn missing() -> Vec<&'static Need> {
     NEEDS.iter().filter(|need| !(need.found)()).collect()
 }

@@ -181,6 +181,7 @@ impl ApplicationHandler<Wake> for App {
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(running) = &mut self.running else { return };
+        running.clipboard.before(&mut running.state, &event);
         // To egui a frame that is due is a reason for another one.
         if event != WindowEvent::RedrawRequested
             && running.state.on_window_event(&running.window.window, &event).repaint

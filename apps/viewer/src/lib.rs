@@ -6,6 +6,7 @@
 
 mod app;
 mod canvas;
+mod clipboard;
 mod controls;
 mod error;
 mod gl_window;

@@ -12,6 +12,7 @@ use winit::window::{Fullscreen, Window};
 use crate::canvas::lines::Stroke;
 use crate::canvas::map_view::MapPicture;
 use crate::canvas::{Canvas, View};
+use crate::clipboard::Clipboard;
 use crate::gl_window::GlWindow;
 use crate::model::Model;
 use crate::model::settings::{Antialiasing, Settings};
@@ -27,6 +28,7 @@ pub(crate) struct Running {
     canvas: Canvas,
     painter: egui_glow::Painter,
     pub(crate) state: egui_winit::State,
+    pub(crate) clipboard: Clipboard,
     context: egui::Context,
     refinement: Refinement,
     pub(crate) window: GlWindow,
@@ -131,6 +133,7 @@ impl Running {
             canvas,
             painter,
             state,
+            clipboard: Clipboard::new(),
             context,
             refinement,
             window,
@@ -181,6 +184,7 @@ impl Running {
             if let Some(update) = platform.accesskit_update.take().filter(|_| json) {
                 self.seen.controls = controls::controls(&update, f64::from(scale));
             }
+            self.clipboard.after(&platform);
             platform
         });
         let rect = pixels(picture, scale, size);

@@ -19,6 +19,7 @@ use crate::masks::{Masks, Overlay, Points, Sampler, Stats};
 use crate::screen::TileGrid;
 use crate::technique::{Methods, Technique};
 use plan::{Manner, Programs};
+use std::fmt;
 use std::sync::Arc;
 
 /// Adds shadows to what a host has drawn.
@@ -50,10 +51,22 @@ pub struct Renderer {
     stats: Stats,
 }
 
+impl fmt::Debug for Renderer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Renderer")
+            .field("technique", &self.manner.technique)
+            .field("soft", &self.manner.soft)
+            .field("caps", &self.manner.caps)
+            .finish_non_exhaustive()
+    }
+}
+
 impl Renderer {
     /// A renderer of the technique `analytic` in the context that is current on this thread, for hosts with any OpenGL
     /// bindings or none: `loader` finds OpenGL's functions by their names, as `eglGetProcAddress`, `glfwGetProcAddress` and
-    /// `SDL_GL_GetProcAddress` do; null stands for those that it does not find.
+    /// `SDL_GL_GetProcAddress` do; null stands for those that it does not find. A loader that finds extensions alone, as
+    /// `wglGetProcAddress` does, has to look in the system's library for the others, and answers null in place of the
+    /// small numbers that `wglGetProcAddress` returns for failure.
     ///
     /// # Errors
     /// [`Error::NoContext`] for a loader that does not find the functions of OpenGL or finds them without a current

@@ -129,8 +129,12 @@ impl DepthCopy {
         unsafe {
             let (texture, copy, is_new) = self.ensure(gl, (right, upper, samples, depth.internal()))?;
             if is_new {
-                // Errors of the host's own are not of the copy.
-                while gl.get_error() != glow::NO_ERROR {}
+                // Errors of the host's own are not of the copy. Contexts keep a few; a lost one keeps on.
+                for _ in 0..16 {
+                    if gl.get_error() == glow::NO_ERROR {
+                        break;
+                    }
+                }
             }
             gl.bind_framebuffer(glow::READ_FRAMEBUFFER, framebuffer);
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(copy));

@@ -3,16 +3,99 @@
 use crate::input::Error;
 use std::ffi::{CStr, c_char, c_void};
 
-/// Functions that every context has which antumbra runs in, each the first of its version.
-const NEEDED: [&str; 8] = [
+/// What antumbra calls of the functions that every context has which it runs in: glow panics at a call of one that was not
+/// found. The first is called here.
+const NEEDED: &[&str] = &[
     "glGetString",
     "glGetIntegerv",
     "glGetError",
     "glGetStringi",
-    "glCreateProgram",
+    "glActiveTexture",
+    "glAttachShader",
+    "glBindBuffer",
     "glBindFramebuffer",
-    "glGenVertexArrays",
+    "glBindRenderbuffer",
     "glBindSampler",
+    "glBindTexture",
+    "glBindVertexArray",
+    "glBlendEquationSeparate",
+    "glBlendFuncSeparate",
+    "glBlitFramebuffer",
+    "glBufferData",
+    "glBufferSubData",
+    "glCheckFramebufferStatus",
+    "glClearBufferfv",
+    "glClearBufferiv",
+    "glColorMask",
+    "glCompileShader",
+    "glCreateProgram",
+    "glCreateShader",
+    "glCullFace",
+    "glDeleteBuffers",
+    "glDeleteFramebuffers",
+    "glDeleteProgram",
+    "glDeleteRenderbuffers",
+    "glDeleteShader",
+    "glDeleteTextures",
+    "glDeleteVertexArrays",
+    "glDepthFunc",
+    "glDepthMask",
+    "glDisable",
+    "glDrawArrays",
+    "glDrawBuffers",
+    "glDrawElements",
+    "glEnable",
+    "glEnableVertexAttribArray",
+    "glFramebufferRenderbuffer",
+    "glFramebufferTexture2D",
+    "glFrontFace",
+    "glGenBuffers",
+    "glGenFramebuffers",
+    "glGenRenderbuffers",
+    "glGenTextures",
+    "glGenVertexArrays",
+    "glGetBooleanv",
+    "glGetFloatv",
+    "glGetFramebufferAttachmentParameteriv",
+    "glGetProgramInfoLog",
+    "glGetProgramiv",
+    "glGetShaderInfoLog",
+    "glGetShaderiv",
+    "glGetUniformLocation",
+    "glIsEnabled",
+    "glIsTexture",
+    "glLinkProgram",
+    "glPixelStorei",
+    "glPolygonOffset",
+    "glRenderbufferStorage",
+    "glRenderbufferStorageMultisample",
+    "glScissor",
+    "glShaderSource",
+    "glStencilFunc",
+    "glStencilFuncSeparate",
+    "glStencilMask",
+    "glStencilMaskSeparate",
+    "glStencilOp",
+    "glStencilOpSeparate",
+    "glTexImage2D",
+    "glTexParameteri",
+    "glTexSubImage2D",
+    "glUniform1f",
+    "glUniform1i",
+    "glUniform1ui",
+    "glUniform2f",
+    "glUniform2fv",
+    "glUniform2i",
+    "glUniform3fv",
+    "glUniform4f",
+    "glUniform4fv",
+    "glUniform4i",
+    "glUniformMatrix3fv",
+    "glUniformMatrix4fv",
+    "glUseProgram",
+    "glVertexAttribIPointer",
+    "glVertexAttribPointer",
+    "glViewport",
 ];
 
 /// glow's context of the functions that `load` finds.
@@ -23,11 +106,10 @@ const NEEDED: [&str; 8] = [
 /// # Safety
 /// What `load` returns are functions of those names of the current context's OpenGL, or null.
 pub(crate) unsafe fn context(mut load: impl FnMut(&str) -> *const c_void) -> Result<glow::Context, Error> {
-    let needed = NEEDED.map(|name| (name, load(name)));
-    if let Some((name, _)) = needed.iter().find(|(_, function)| function.is_null()) {
+    if let Some(name) = NEEDED.iter().find(|name| load(name).is_null()) {
         return Err(Error::NoContext { name });
     }
-    let (name, get_string) = needed[0];
+    let (name, get_string) = (NEEDED[0], load(NEEDED[0]));
     // SAFETY: the caller's; OpenGL's functions have the system's calling convention, and this one that signature.
     let version = unsafe {
         let get_string: unsafe extern "system" fn(u32) -> *const c_char = std::mem::transmute(get_string);
@@ -66,6 +148,17 @@ mod tests {
         }
         for bad in ["", "2.1 Mesa", "OpenGL ES 2.0", "OpenGL ES-CM 1.1", "WebGL", "three"] {
             assert!(!is_version(bad), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_loader_that_lacks_a_function_is_an_error_that_names_it() {
+        extern "system" fn any() {}
+        for missing in NEEDED {
+            let load = |name: &str| if name == *missing { std::ptr::null() } else { any as *const c_void };
+            // SAFETY: nothing is called where one is missing.
+            let lacking = unsafe { context(load) };
+            assert!(matches!(lacking, Err(Error::NoContext { name }) if name == *missing), "{lacking:?}");
         }
     }
 

@@ -18,7 +18,7 @@ mod upload;
 pub use caps::{Caps, Tier};
 pub(crate) use depth::{DepthAttachment, DepthCopy};
 pub(crate) use drawing::{Drawing, bind_texture};
-pub(crate) use host_target::{OtherBuffers, refuse_feedback};
+pub(crate) use host_target::{HostDraw, refuse_feedback, refuse_upper_left};
 pub(crate) use mesh_buffers::MeshCache;
 pub(crate) use program::{
     AREA, COVERAGE, Needs, Program, ProgramSet, ProgramSource, SURFACE, Stage, Variant, When,

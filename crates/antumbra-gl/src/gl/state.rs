@@ -310,9 +310,11 @@ impl Bindings {
         unsafe {
             for (i, unit) in (0..).zip(&self.units) {
                 gl.active_texture(glow::TEXTURE0 + i);
-                gl.bind_texture(glow::TEXTURE_2D, unit.texture_2d);
+                // One that the host had bound may be a mask of a size that is no more.
+                let alive = |texture: &glow::Texture| gl.is_texture(*texture);
+                gl.bind_texture(glow::TEXTURE_2D, unit.texture_2d.filter(alive));
                 if caps.is_desktop() {
-                    gl.bind_texture(glow::TEXTURE_2D_MULTISAMPLE, unit.multisample);
+                    gl.bind_texture(glow::TEXTURE_2D_MULTISAMPLE, unit.multisample.filter(alive));
                 }
                 gl.bind_sampler(i, unit.sampler);
             }

@@ -8,9 +8,12 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The loader of [`crate::Renderer::from_loader`] does not find a function that every context has, or none has an
-    /// answer: most often because no context is current.
-    #[error("the loader finds no working OpenGL function {name}; is a context current on this thread?")]
+    /// The loader of [`crate::Renderer::from_loader`] does not find a function that every context has, or it has no
+    /// answer: because no context is current, or because the loader looks among extensions alone.
+    #[error(
+        "the loader finds no working OpenGL function {name}; is a context current on this thread, and does the loader know \
+         more than extensions?"
+    )]
     NoContext {
         /// The function.
         name: &'static str,
@@ -203,6 +206,11 @@ pub enum Unsupported {
          lights"
     )]
     LargeMaps,
+    /// Clip space upside down.
+    #[error(
+        "shadows are drawn with the origin in the lower left; call glClipControl(GL_LOWER_LEFT, ..) before"
+    )]
+    UpperLeft,
     /// The depth of a framebuffer that has none.
     #[error("shadows need a depth buffer, and the framebuffer has none")]
     NoDepth,

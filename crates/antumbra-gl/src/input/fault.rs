@@ -43,9 +43,17 @@ pub enum FrameFault {
     /// The projection's near plane.
     #[error("the projection matrix has its near plane behind the eye")]
     NearPlane,
+    /// Which way depth runs.
+    #[error(
+        "the projection matrix makes depth run the other way than the surface says; see DepthFormat::reversed"
+    )]
+    DepthDirection,
     /// The viewport.
     #[error("the viewport is empty, negative or larger than the driver's textures")]
     Viewport,
+    /// The rectangle that the overlay is confined to.
+    #[error("the clip rectangle has a negative size")]
+    Clip,
     /// The surface's samples.
     #[error("the surface has no samples; plain textures have 1")]
     Samples,

@@ -23,6 +23,10 @@ pub struct Frame<'a> {
     pub camera: Camera,
     /// The host's viewport: x, y, width, height, as in `glViewport`.
     pub viewport: [i32; 4],
+    /// Window pixels that the overlay may change, as in `glScissor`; `None` for all of the viewport. The host's own
+    /// scissor test is not asked for: where it cuts off what the host draws, such as a widget half scrolled out of sight,
+    /// hand over the same rectangle.
+    pub clip: Option<[i32; 4]>,
     /// What the host has drawn.
     pub surface: Surface,
     /// The lights, any number of them.
@@ -53,6 +57,7 @@ impl<'a> Frame<'a> {
         Self {
             camera,
             viewport,
+            clip: None,
             surface,
             lights: &[],
             occluders: &[],
@@ -72,6 +77,11 @@ impl<'a> Frame<'a> {
     /// The same with another [`Self::viewport`].
     pub fn viewport(self, viewport: [i32; 4]) -> Self {
         Self { viewport, ..self }
+    }
+
+    /// The same with another [`Self::clip`].
+    pub fn clip(self, clip: [i32; 4]) -> Self {
+        Self { clip: Some(clip), ..self }
     }
 
     /// The same with another [`Self::surface`].

@@ -11,12 +11,13 @@ pub enum HostState {
     /// Not in a browser, where what is bound can be objects that the library does not know.
     #[cfg(not(target_arch = "wasm32"))]
     Restore,
-    /// Nothing is asked for. Whatever was changed is afterwards as OpenGL has it in a new context, but for the viewport and
+    /// Nothing is asked for. Whatever was changed, vertex array and program among it, is afterwards as OpenGL has it in a new
+    /// context, but for the viewport and
     /// the scissor box, which are undefined, and the framebuffers: the one that shadows were drawn to is bound for drawing
     /// and reading, or after masks the window's. The host sets what it needs itself, as most do before each pass; three.js
     /// has `WebGLRenderer.resetState` for it.
     ///
-    /// The host vouches for the rest: a framebuffer that is drawn to has one colour buffer to draw to, its attachments are
+    /// The host vouches for the rest: `glClipControl`, where there is one, has the origin in the lower left; a framebuffer that is drawn to has one colour buffer to draw to, its attachments are
     /// none of the surface's textures, and [`crate::Renderer::overlay`] draws to the window (or, outside a browser, to
     /// what is bound for drawing, which alone is asked for).
     Reset,

@@ -11,7 +11,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Occluder {
-    /// The shape, world space.
+    /// The shape, world space. One that is not finite or has no extent blocks nothing.
     pub shape: Shape,
     /// The number that the host's id texture shows where this occluder is seen: not 0, below
     /// [`crate::NO_SHADOW`]. Several occluders may share one: they are one solid and do not shadow each
@@ -77,13 +77,15 @@ impl Occluder {
         shape.into().placed(&model.into().glam()).map(Self::new)
     }
 
-    /// A solid cone.
+    /// A solid cone; none where its apex is in the middle of its base.
     pub fn cone(base_center: impl Into<Vector>, apex: impl Into<Vector>, radius: impl Into<f64>) -> Self {
         let (base_center, apex) = (base_center.into().glam(), apex.into().glam());
         let along = apex - base_center;
         let (axis, height) =
             if along.is_finite() { along.normalize_and_length() } else { (DVec3::NAN, f64::NAN) };
-        Self::new(Cone { base_center, axis, radius: radius.into(), height })
+        // Without a height it has no axis.
+        let radius = if height == 0.0 { 0.0 } else { radius.into() };
+        Self::new(Cone { base_center, axis, radius, height })
     }
 }
 

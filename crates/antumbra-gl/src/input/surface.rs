@@ -35,7 +35,8 @@ pub enum Depth {
     /// In the framebuffer that the overlay is drawn to, or that is bound for drawing when masks are asked for: a window's,
     /// or one with renderbuffers or textures, multisampled ones too. The renderer copies it in each frame to a texture of
     /// its own, which it keeps. Where the context has no multisampled textures (OpenGL ES) one of the samples is copied,
-    /// and the shadows' edges are as fine as the pixels.
+    /// and the shadows' edges are as fine as the pixels. OpenGL errors of the host's own that are pending when the copy is
+    /// made, in the first frame of a size, are dropped.
     Copied,
 }
 

@@ -3,7 +3,7 @@
 use super::batch::Masks;
 use super::lights::packed;
 use crate::gl::{
-    AREA, Blend, COVERAGE, Caps, Drawing, Needs, OtherBuffers, Program, ProgramSet, ProgramSource, SURFACE,
+    AREA, Blend, COVERAGE, Caps, Drawing, HostDraw, Needs, Program, ProgramSet, ProgramSource, SURFACE,
     Target, TargetFormat, TileMesh, Variant, When, bind_texture,
 };
 use crate::input::{Encoding, Error, Light};
@@ -284,11 +284,9 @@ impl Steps {
                     drawing.use_program(program, [0, 0]);
                     set(drawing, program, step, [-x, -y]);
                     gl.uniform_1_f32(program.uniforms.gamma.as_ref(), host.encoding.gamma());
-                    let others = OtherBuffers::leave_alone(drawing, host.framebuffer);
+                    let host = HostDraw::begin(drawing, host.framebuffer);
                     self.screen.draw(gl);
-                    if let Some(others) = others {
-                        others.restore(gl);
-                    }
+                    host.end(gl);
                 }
             }
         }

@@ -40,6 +40,8 @@ pub struct MaskBatch {
     pub first_light: usize,
     /// How many lights.
     pub lights: usize,
+    /// Samples a pixel: of more than one the textures are `TEXTURE_2D_MULTISAMPLE`, otherwise `TEXTURE_2D`.
+    pub samples: u32,
     /// `RGBA8` textures (`RGBA16F` in frames with area lights, where the driver draws to it): light
     /// `first_light + i` is channel `i % 4` of texture `i / 4`. One texel a pixel of the viewport
     /// (`texelFetch` with window position minus the viewport's corner), 1 where the light arrives;

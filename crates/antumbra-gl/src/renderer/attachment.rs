@@ -16,13 +16,15 @@ impl Surface {
     /// is: let the renderer copy it then ([`Surface::copied`]).
     pub fn from_framebuffer(renderer: &Renderer, framebuffer: Framebuffer) -> Result<Self, Error> {
         let gl = &renderer.gl;
+        // SAFETY: a query of state that the context has.
+        let clip =
+            unsafe { renderer.manner.caps.clip_control.then(|| gl.get_parameter_i32(glow::CLIP_DEPTH_MODE)) };
         let _guard = StateGuard::new(gl, renderer.manner.caps, renderer.host_state);
         // SAFETY: the guard is alive, and whoever made the framebuffer's handle vouches for it.
-        let (attachment, cleared, clip) = unsafe {
+        let (attachment, cleared) = unsafe {
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, framebuffer.glow());
             let attachment = DepthAttachment::query(gl, framebuffer.glow())?;
-            let clip = renderer.manner.caps.clip_control.then(|| gl.get_parameter_i32(glow::CLIP_DEPTH_MODE));
-            (attachment, gl.get_parameter_f32(glow::DEPTH_CLEAR_VALUE), clip)
+            (attachment, gl.get_parameter_f32(glow::DEPTH_CLEAR_VALUE))
         };
         let Some(texture) = attachment.texture else {
             let is_texture = attachment.is_texture;

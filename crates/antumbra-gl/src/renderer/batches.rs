@@ -2,7 +2,7 @@
 
 use super::Renderer;
 use super::plan::{FramePlan, Purpose};
-use crate::gl::{StateGuard, bound_framebuffer};
+use crate::gl::{StateGuard, bound_framebuffer, refuse_upper_left};
 use crate::input::{Error, Frame, Texture};
 use crate::masks::{BATCH_LIGHTS, MaskBatch};
 use std::fmt;
@@ -43,6 +43,7 @@ impl Renderer {
         let _guard = StateGuard::new(&gl, self.manner.caps, self.host_state);
         // SAFETY: the guard is alive, the plan checks the frame, and whoever made the handles of textures vouches for them.
         let plan = unsafe {
+            refuse_upper_left(&gl, &self.manner.caps, self.host_state)?;
             let frame = self.with_depth(frame, bound)?;
             let plan = FramePlan::new(&frame, Purpose::Masks, &self.manner, &mut self.centers)?;
             self.prepare(&plan)?;
@@ -81,6 +82,7 @@ impl MaskBatches<'_, '_> {
         Ok(Some(MaskBatch {
             first_light: batch * BATCH_LIGHTS,
             lights: lights.len(),
+            samples: plan.frame.surface.samples,
             textures: renderer.masks.targets().map(|target| Texture::own(target.texture)),
         }))
     }

@@ -2,7 +2,7 @@
 
 use super::Renderer;
 use super::plan::{FramePlan, Programs};
-use crate::gl::{Drawing, OtherBuffers};
+use crate::gl::{Drawing, HostDraw};
 use crate::input::{Error, Frame};
 use crate::masks::{BATCH_LIGHTS, Batch, Counts, HostPicture, Masks, Points, Sampler, Stats};
 use crate::technique::{Method, Pass};
@@ -109,12 +109,10 @@ impl Renderer {
         unsafe {
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
             gl.viewport(x, y, width, height);
-            let others = OtherBuffers::leave_alone(&pass, host.framebuffer);
+            let draw = HostDraw::begin(&pass, host.framebuffer);
             let painted = painter.paint(&pass, host, &mut masks.tiles);
-            if let Some(others) = others {
-                gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
-                others.restore(gl);
-            }
+            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, host.framebuffer);
+            draw.end(gl);
             painted?;
         }
         let counts = method.counts();

@@ -2,7 +2,7 @@
 
 use super::Renderer;
 use super::plan::{FramePlan, Purpose};
-use crate::gl::{StateGuard, bound_framebuffer, refuse_feedback};
+use crate::gl::{StateGuard, bound_framebuffer, refuse_feedback, refuse_upper_left};
 use crate::input::{Encoding, Error, Frame, Framebuffer};
 use crate::masks::{BATCH_LIGHTS, HostPicture};
 use glow::HasContext;
@@ -48,6 +48,7 @@ impl Renderer {
         // SAFETY: the guard is alive, the plan checks the frame, and whoever made the handles of textures and framebuffers
         // vouches for them.
         unsafe {
+            refuse_upper_left(&gl, &self.manner.caps, self.host_state)?;
             let frame = self.with_depth(frame, framebuffer)?;
             let plan = FramePlan::new(&frame, Purpose::Overlay, &self.manner, &mut self.centers)?;
             gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, framebuffer);

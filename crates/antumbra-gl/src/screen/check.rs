@@ -3,6 +3,9 @@
 use crate::input::{Error, Frame, FrameFault, NO_SHADOW};
 use glam::{DMat3, DMat4, DVec4};
 
+/// How far the last row of an affine matrix may be from (0, 0, 0, 1): what float32 leaves of one that was inverted.
+const AFFINE: f64 = 1e-5;
+
 /// Checks everything about a frame but its projection, which is checked where it is used.
 ///
 /// # Errors
@@ -13,13 +16,18 @@ pub(super) fn check(frame: &Frame<'_>, max_texture_size: u32) -> Result<(), Erro
         return Err(Error::BadFrame(FrameFault::Camera));
     }
     let rotation = DMat3::from_mat4(view);
-    if !(rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-4) || view.row(3) != DVec4::W {
+    if !(rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-4)
+        || !view.row(3).abs_diff_eq(DVec4::W, AFFINE)
+    {
         return Err(Error::BadFrame(FrameFault::View));
     }
     if projection.determinant() == 0.0 {
         return Err(Error::BadFrame(FrameFault::Projection));
     }
     check_viewport(frame.viewport, max_texture_size).map_err(Error::BadFrame)?;
+    if frame.clip.is_some_and(|[_, _, width, height]| width < 0 || height < 0) {
+        return Err(Error::BadFrame(FrameFault::Clip));
+    }
     if frame.surface.samples == 0 {
         return Err(Error::BadFrame(FrameFault::Samples));
     }
@@ -50,7 +58,8 @@ fn check_scenery(frame: &Frame<'_>) -> Result<(), Error> {
     if ids.any(|id| id >= NO_SHADOW) {
         return Err(Error::BadFrame(FrameFault::Id));
     }
-    let places = |m: &DMat4| m.is_finite() && m.row(3) == DVec4::W && m.determinant() != 0.0;
+    let places =
+        |m: &DMat4| m.is_finite() && m.row(3).abs_diff_eq(DVec4::W, AFFINE) && m.determinant() != 0.0;
     if !frame.meshes.iter().all(|mesh| places(&mesh.model)) {
         return Err(Error::BadFrame(FrameFault::MeshModel));
     }

@@ -30,7 +30,7 @@ impl View {
         let projection = frame.camera.projection;
         let perspective = projection.row(3) != DVec4::W;
         Ok(Self {
-            view: frame.camera.view,
+            view: affine(frame.camera.view),
             projection,
             near_w: near_w(frame, perspective)?,
             viewport: frame.viewport,
@@ -65,6 +65,14 @@ impl View {
     }
 }
 
+/// A matrix that is affine but for rounding, without that.
+fn affine(mut matrix: DMat4) -> DMat4 {
+    for (column, last) in [0.0, 0.0, 0.0, 1.0].into_iter().enumerate() {
+        matrix.col_mut(column).w = last;
+    }
+    matrix
+}
+
 /// See [`View::near_w`].
 fn near_w(frame: &Frame<'_>, perspective: bool) -> Result<f64, Error> {
     let (projection, format) = (frame.camera.projection, &frame.surface.depth_format);
@@ -73,6 +81,12 @@ fn near_w(frame: &Frame<'_>, perspective: bool) -> Result<f64, Error> {
     let near = projection.inverse() * DVec4::new(0.0, 0.0, near_depth, 1.0);
     let near_w = if perspective { (projection * (near / near.w)).w * 0.999 } else { 1e-6 };
     let behind = perspective && near.z / near.w >= 0.0;
+    // Depth grows away from the eye where this is negative: how [z_z z_1; w_z w_1] turns.
+    let turn = projection.z_axis.z * projection.w_axis.w - projection.w_axis.z * projection.z_axis.w;
+    let looks_ahead = !perspective || projection.z_axis.w < 0.0;
+    if looks_ahead && (turn < 0.0) != (format.background > 0.5) {
+        return Err(Error::BadFrame(FrameFault::DepthDirection));
+    }
     if !near_w.is_finite() || near_w <= 0.0 || behind {
         return Err(Error::BadFrame(FrameFault::NearPlane));
     }

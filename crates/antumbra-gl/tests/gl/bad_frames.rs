@@ -23,6 +23,7 @@ fn bad_frames<'w>(shot: &Shot<'w>, max_samples: u32) -> Vec<(&'static str, Frame
         frame
     };
     let behind = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, 1.0, 1.0), DVec4::Z * -0.5);
+    let reversed = DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * projection;
     vec![
         ("matrices", camera(DMat4::NAN, projection)),
         ("matrices", camera(view, DMat4::NAN)),
@@ -32,6 +33,7 @@ fn bad_frames<'w>(shot: &Shot<'w>, max_samples: u32) -> Vec<(&'static str, Frame
         ("rotation", camera(projection, projection)),
         ("inverted", camera(view, DMat4::ZERO)),
         ("near plane", camera(view, behind)),
+        ("depth run", camera(view, reversed)),
         ("viewport", part([0, 0, 0, 10])),
         ("viewport", part([0, 0, 10, 0])),
         ("viewport", part([0, 0, -10, 10])),

@@ -36,5 +36,6 @@ mod samples;
 mod state;
 mod stats;
 mod steady;
+mod surprises;
 mod viewports;
 mod volumes;

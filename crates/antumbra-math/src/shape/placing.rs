@@ -58,7 +58,7 @@ impl Shape {
         if !matrix.is_finite() {
             return Err(PlacingError::NotFinite);
         }
-        if matrix.row(3) != DVec4::W {
+        if !matrix.row(3).abs_diff_eq(DVec4::W, SAME) {
             return Err(PlacingError::NotAffine);
         }
         let point = |p| matrix.transform_point3(p);
