@@ -101,15 +101,15 @@ impl Builder {
     /// Adds a vertex, metres.
     pub(crate) fn vertex(&mut self, position: DVec3) -> Result<(), MeshError> {
         self.expect(1, 0)?;
-        if !(position.abs().max_element() <= MAX_COORDINATE && position.is_finite()) {
+        let bad = |what: &str, instead: &str| {
             let [x, y, z] = position.to_array().map(plain);
-            return Err(MeshError::new(
-                format!(
-                    "has the vertex ({x}, {y}, {z}), which is not finite or beyond {}",
-                    plain(MAX_COORDINATE)
-                ),
-                "scale the mesh to metres",
-            ));
+            Err(MeshError::new(format!("has the vertex ({x}, {y}, {z}), which is {what}"), instead))
+        };
+        if !position.is_finite() {
+            return bad("not finite", "write numbers there, or the mesh again with the program that made it");
+        }
+        if position.abs().max_element() > MAX_COORDINATE {
+            return bad(&format!("beyond {}", plain(MAX_COORDINATE)), "scale the mesh to metres");
         }
         self.positions.push(position);
         Ok(())
