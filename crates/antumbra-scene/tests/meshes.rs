@@ -135,6 +135,11 @@ fn malformed_gltf() {
         ("\"nodes\":[0]", "\"nodes\":[9]", "is malformed"),
         ("\"scene\":0", "\"scene\":5", "is malformed"),
         ("5126", "5123", "wrong type"),
+        (
+            "\"mesh\":0,",
+            "\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"SCALE\":1}}},",
+            "wrong type",
+        ),
         ("5123", "5126", "wrong type"),
         ("5123", "9999", "is malformed"),
         ("\"VEC3\"", "\"MAT4\"", "wrong type"),
@@ -234,7 +239,7 @@ fn required_extensions_are_refused_unless_they_change_no_triangle() {
     {
         load(name).unwrap_or_else(|e| panic!("{e}"));
     }
-    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"] {
+    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization2"] {
         let error = load(name).expect_err(name).to_string();
         assert!(error.contains(&format!("requires the extension \"{name}\"")), "{error}");
     }
@@ -258,7 +263,17 @@ fn mutated_meshes() {
     let cases = cases.map_or(1_500, |n| n / 100);
     let config = Config { cases, failure_persistence: None, ..Config::default() };
     let obj = format!("{TETRAHEDRON}vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3//1\ng x\nf -1 -2 -3 -4\n");
-    let seeds = [("m.obj", obj.into_bytes()), ("m.gltf", embedded().into_bytes()), ("m.glb", glb())];
+    let instanced = embedded().replacen(
+        "\"mesh\":0",
+        r#""mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0,"SCALE":0}}}"#,
+        1,
+    );
+    let seeds = [
+        ("m.obj", obj.into_bytes()),
+        ("m.gltf", embedded().into_bytes()),
+        ("m.gltf", instanced.into_bytes()),
+        ("m.glb", glb()),
+    ];
     let edit = (
         any::<prop::sample::Index>(),
         prop_oneof![any::<u8>(), prop::sample::select(b"0123456789-/., []{}\":e".as_slice())],
