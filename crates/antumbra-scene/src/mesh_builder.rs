@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::Mesh;
 use crate::limits::{MAX_COORDINATE, MAX_MESH_BYTES, MAX_MESH_ELEMENTS};
-use crate::text::{one_line, shortened};
+use crate::text::{one_line, shortened_path};
 use crate::values::plain;
 
 /// What is wrong with a mesh: the second half of a sentence that begins with its path.
@@ -38,7 +38,7 @@ impl MeshError {
 
 /// The bytes of a mesh's file. Only regular files: a pipe or device may never end.
 pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, MeshError> {
-    let shown = shortened(&path.to_string_lossy());
+    let shown = shortened_path(&path.to_string_lossy());
     let unreadable = |error: &dyn core::fmt::Display| {
         MeshError::new(
             format!("cannot be read from {shown}: {}", one_line(&error.to_string())),

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::limits::MIN_LENGTH;
 use crate::mesh::Meshes;
 use crate::table::{Field, Table};
-use crate::text::{all_of, any_of, nearest, quoted};
+use crate::text::{all_of, any_of, nearest, quoted_path};
 use crate::values::plain;
 use crate::{SceneError, Shape};
 
@@ -72,9 +72,9 @@ pub(crate) fn shape(field: &Field<'_>, meshes: &mut Meshes<'_>) -> Result<Shape,
             let field = table.require("path", example)?;
             let path = field.string(example)?;
             Shape::Mesh(
-                meshes
-                    .load(path)
-                    .map_err(|e| field.error(format!("the mesh {} {}", quoted(path), e.what), e.instead))?,
+                meshes.load(path).map_err(|e| {
+                    field.error(format!("the mesh {} {}", quoted_path(path), e.what), e.instead)
+                })?,
             )
         }
         _ => Shape::Plane,

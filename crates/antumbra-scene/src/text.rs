@@ -31,6 +31,33 @@ pub(crate) fn shortened(text: &str) -> String {
     one_line(&head) + if chars.next().is_some() { "…" } else { "" }
 }
 
+/// Longest file name that a message repeats, in characters: no file system allows a longer one.
+const NAME_SHOWN: usize = 255;
+
+/// A path in quotes, escaped and cut to a readable length as by [`shortened_path`].
+pub(crate) fn quoted_path(path: &str) -> String {
+    format!("\"{}\"", shortened_path(path))
+}
+
+/// A path, escaped and cut to a readable length in its middle, so that its beginning and the file's name stay.
+pub(crate) fn shortened_path(path: &str) -> String {
+    let whole = one_line(path);
+    let length = whole.chars().count();
+    if length <= SHOWN {
+        return whole;
+    }
+    let name = whole.rsplit(['/', '\\']).next().unwrap_or_default().chars().count();
+    // A third for where it begins, the rest for where it ends; more only if the name is longer.
+    let head = SHOWN / 3;
+    let tail = (SHOWN - head).max(name + 1).min(NAME_SHOWN + 1);
+    if head + tail >= length {
+        return whole;
+    }
+    let start: String = whole.chars().take(head).collect();
+    let end: String = whole.chars().skip(length - tail).collect();
+    format!("{start}…{end}")
+}
+
 /// "a, b or c".
 pub(crate) fn any_of<S: AsRef<str>>(words: &[S]) -> String {
     joined(words, "or")
@@ -83,6 +110,22 @@ mod tests {
         for typed in ["", "colour", "xyz", "positioning system"] {
             assert_eq!(nearest(typed, &keys), None, "{typed}");
         }
+    }
+
+    #[test]
+    fn long_paths_keep_the_file_s_name() {
+        assert_eq!(quoted_path("meshes/a\n.obj"), "\"meshes/a\\n.obj\"", "short, and escaped");
+        let deep = format!("/home/someone/{}/meshes/the one.obj", "folder/".repeat(40));
+        let shown = shortened_path(&deep);
+        assert_eq!(shown.chars().count(), SHOWN + 1, "{shown} has an ellipsis too");
+        assert!(shown.starts_with("/home/someone/") && shown.ends_with("/meshes/the one.obj"), "{shown}");
+        let name = format!("{}.obj", "x".repeat(200));
+        for separator in ["/", "\\"] {
+            let shown = shortened_path(&format!("{}{separator}{name}", "y".repeat(99)));
+            assert!(shown.ends_with(&format!("…{separator}{name}")), "{shown}");
+        }
+        let absurd = shortened_path(&"z".repeat(100_000));
+        assert!(absurd.chars().count() < 300, "{absurd}");
     }
 
     #[test]

@@ -254,6 +254,29 @@ fn only_regular_files_are_read() {
     assert!(error.to_string().contains("not a regular file"), "{error}");
 }
 
+#[test]
+fn a_long_path_keeps_the_file_s_name() {
+    let deep = format!("{}meshes/", "a folder of some name/".repeat(9));
+    let text = |file: &str| {
+        format!(
+            "camera.eye = [0, 2, 9]\n[[object]]\nname = 'm'\nshape = {{ type = 'mesh', path = '{deep}{file}' }}"
+        )
+    };
+    for (file, fragment) in
+        [("missing.obj", "cannot be read from "), ("missing.stl", "has the extension \"stl\"")]
+    {
+        let error = Scene::parse(&text(file), "s.toml".as_ref()).expect_err("no such file").to_string();
+        assert!(error.contains(fragment) && error.contains(&format!("/meshes/{file}\" ")), "{error}");
+        assert!(error.len() < 400, "and is not shown whole: {error}");
+    }
+    let error = Scene::parse(&text("missing.obj"), "s.toml".as_ref()).expect_err("no such file").to_string();
+    assert_eq!(
+        error.matches("/meshes/missing.obj").count(),
+        2,
+        "as it was written and as it was looked for: {error}"
+    );
+}
+
 /// Mutated mesh files give a mesh or an error. `ANTUMBRA_FUZZ_CASES` sets how many, a hundred of it to
 /// one input: each is written to a file first.
 #[test]

@@ -12,7 +12,7 @@ use gltf::json::validation::Checked;
 
 use crate::limits::MAX_MESH_BYTES;
 use crate::mesh_builder::{MeshError, read_file};
-use crate::text::quoted;
+use crate::text::quoted_path;
 
 /// How many elements an accessor says it has.
 pub(super) fn count_of(root: &Root, accessor: usize) -> Result<usize, MeshError> {
@@ -222,7 +222,7 @@ fn fetch(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, MeshError> {
     let path = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
     if uri.contains(':') || Path::new(&*path).is_absolute() {
         return Err(MeshError::new(
-            format!("refers to {}, which is not beside it", quoted(uri)),
+            format!("refers to {}, which is not beside it", quoted_path(uri)),
             "keep the buffers of a glTF file in its folder, or embed them",
         ));
     }
