@@ -222,3 +222,51 @@ fn without_any_opengl() {
     assert!(stdout(&output).contains("drawn with the CPU"), "says what drew: {}", stdout(&output));
     assert!(pictures(&place, "pictures").len() >= 6, "at least six pictures");
 }
+
+/// What the program says to use instead does draw.
+#[test]
+fn every_way_that_is_named_draws() {
+    let place = Place::new();
+    if !opengl(&place) {
+        return;
+    }
+    let torus = SCENE
+        .replace(
+            "type = \"sphere\", radius = 0.7",
+            "type = \"torus\", major_radius = 0.6, minor_radius = 0.2",
+        )
+        .replace("type = \"point\"", "type = \"sphere\"\nradius = 0.3");
+    assert!(torus.contains("torus") && torus.contains("radius = 0.3"), "a mesh and a light with an area");
+    place.write("torus.toml", &torus);
+    let render = |more: &[&str]| {
+        place.run([&["render", "torus.toml", "-o", "a.png", "--size", "16x12"], more].concat())
+    };
+    let mut named = 0;
+    for refused in
+        [&[][..], &["--soft", "samples:2"], &["--technique", "volume"], &["--technique", "composite"]]
+    {
+        let output = render(refused);
+        assert_refused(&output, "; use --technique ");
+        let errors = stderr(&output);
+        let ways = errors.trim().rsplit("; use ").next().expect("what to use");
+        let (able, sampled) = ways.split_once(", or --soft ").unwrap_or((ways, ""));
+        let mut all: Vec<Vec<&str>> = Vec::new();
+        for technique in able.strip_prefix("--technique ").expect("a technique").split(" or ") {
+            let more: &[&str] = if technique.ends_with(" without --soft") { &[] } else { refused };
+            let more = more.iter().copied().filter(|word| *word == "--soft" || word.starts_with("samples"));
+            let technique = technique.split(' ').next().expect("a name");
+            all.push(["--technique", technique].into_iter().chain(more).collect());
+        }
+        if let Some((soft, techniques)) = sampled.split_once(" with --technique ") {
+            all.extend(techniques.split(" or ").map(|name| vec!["--technique", name, "--soft", soft]));
+        } else if !sampled.is_empty() {
+            all.push([refused, &["--soft", sampled]].concat());
+        }
+        for way in all {
+            eprintln!("{refused:?}: {way:?}");
+            assert_success(&render(&way));
+            named += 1;
+        }
+    }
+    assert!(named >= 12, "{named} ways are named");
+}

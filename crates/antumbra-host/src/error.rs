@@ -1,5 +1,7 @@
 //! What can go wrong while drawing a scene with OpenGL.
 
+use crate::Ways;
+
 /// Why a scene was not drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -8,16 +10,14 @@ pub enum HostError {
     #[error("no OpenGL: {0}")]
     NoOpenGl(String),
     /// The technique cannot do something in the scene.
-    #[error("{object}: {what}; use --technique {}{}", able.join(" or "), or_sampled(sampled, "--soft "))]
+    #[error("{object}: {what}; use {}", ways.as_options())]
     Unsupported {
         /// The object or light, by name.
         object: String,
         /// What cannot be done.
         what: String,
-        /// The names of the techniques that can do it.
-        able: Vec<&'static str>,
-        /// Samples of lights with an area with which the technique itself can do it.
-        sampled: Option<antumbra::Soft>,
+        /// What can do it.
+        ways: Ways,
     },
     /// The picture is not one this driver can draw.
     #[error("{0}")]
@@ -34,14 +34,8 @@ impl HostError {
     /// The error for people who have no command line before them: without the names of its options.
     pub fn in_words(&self) -> String {
         match self {
-            Self::Unsupported { object, what, able, sampled } => {
-                format!("{object}: {what}; use {}{}", able.join(" or "), or_sampled(sampled, ""))
-            }
+            Self::Unsupported { object, what, ways } => format!("{object}: {what}; use {}", ways.in_words()),
             error => error.to_string(),
         }
     }
-}
-
-fn or_sampled(sampled: &Option<antumbra::Soft>, option: &str) -> String {
-    sampled.map(|soft| format!(", or {option}{soft}")).unwrap_or_default()
 }

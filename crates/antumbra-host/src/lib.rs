@@ -25,6 +25,7 @@ mod tessellate;
 mod test_context;
 mod test_display;
 mod timer;
+mod ways;
 
 pub use context::{Api, ContextInfo, HeadlessContext};
 pub use describe::{Described, describe, light};
@@ -38,3 +39,4 @@ pub use targets::ColorFormat;
 pub use test_context::TestContext;
 pub use test_display::TestDisplay;
 pub use timer::FrameTimer;
+pub use ways::Ways;

@@ -1,7 +1,7 @@
 //! What a technique cannot do of a scene, in words.
 
-use crate::HostError;
 use crate::describe::{Described, describe};
+use crate::{HostError, Ways};
 use antumbra::{Part, Soft, Technique};
 use antumbra_scene::{Moment, Scene};
 
@@ -52,10 +52,5 @@ pub(crate) fn objection_to<'a>(
         Part::Options => "the options".into(),
         _ => "the scene".into(),
     };
-    let able = Technique::all().filter(|other| other.refusal_with(soft, &scenery).is_none());
-    let mut names: Vec<&str> = able.map(|other| other.name()).collect();
-    names.push("raytraced");
-    let sampled = Soft::samples(16);
-    let samples = soft == Soft::Native && technique.refusal_with(sampled, &scenery).is_none();
-    Some(HostError::Unsupported { object, what, able: names, sampled: samples.then_some(sampled) })
+    Some(HostError::Unsupported { object, what, ways: Ways::of(technique, soft, &scenery) })
 }
