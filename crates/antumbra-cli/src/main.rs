@@ -1,7 +1,8 @@
 //! `antumbra`, the command-line program: renders and animates scene files with exact shadows, traces their ground truth, checks
 //! them and tells what the machine's OpenGL can do. It is built on the public interfaces of the other crates alone.
 //!
-//! Exit code 0, or 2 with exactly one line on standard error that begins with `error:`.
+//! Exit code 0, or 2 with exactly one line on standard error that begins with `error:`; 128 and the number of a signal that ended
+//! the program.
 #![forbid(unsafe_code)]
 
 mod args;
@@ -20,7 +21,7 @@ mod timing;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    output::staged::clean_up_on_interrupt();
+    output::signals::clean_up_on_signals();
     let outcome = args::parse(std::env::args_os()).and_then(commands::run);
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

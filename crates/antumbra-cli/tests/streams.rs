@@ -1,11 +1,11 @@
-//! Standard output that goes away or fills up, and interrupts.
+//! Standard output that goes away or fills up, and signals.
 #![cfg(unix)]
 
 mod common;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use common::{Place, SCENE, assert_refused, stderr};
@@ -48,10 +48,10 @@ fn a_closed_standard_error_is_no_panic() {
     assert_eq!(status.code(), Some(2), "code 2 although nobody reads why");
 }
 
-/// Interrupts the program once there is a temporary file in a directory of its place.
-fn interrupted(place: &Place, arguments: &[&str], directory: &str) {
-    let mut child = place
-        .command(arguments)
+/// The program, with a temporary file in a directory of its place.
+fn at_work(place: &Place, mut command: Command, directory: &str) -> Child {
+    let mut child = command
+        .current_dir(place.path())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
@@ -66,20 +66,80 @@ fn interrupted(place: &Place, arguments: &[&str], directory: &str) {
         assert!(start.elapsed() < Duration::from_secs(120), "the first picture takes seconds");
         std::thread::sleep(Duration::from_millis(5));
     }
+    child
+}
+
+fn send(child: &Child, signal: &str) {
     let killed =
-        Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill is there");
+        Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill is there");
     assert!(killed.success(), "the signal was sent");
-    let status = child.wait().expect("a child");
-    assert_eq!(status.code(), Some(130), "the code of an interrupt");
+}
+
+/// The program ends with a code and leaves nothing behind.
+fn assert_ended(place: &Place, mut child: Child, code: i32) {
+    let start = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().expect("a child") {
+            break status;
+        }
+        if start.elapsed() > Duration::from_secs(60) {
+            let _ = child.kill();
+            panic!("it does not end");
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    };
+    assert_eq!(status.code(), Some(code), "the code of the signal");
     assert_eq!(place.entries(), ["scene.toml"], "neither files nor temporary ones nor a directory");
+}
+
+/// A place whose scene moves, and what animates it for minutes.
+fn long_work() -> (Place, Vec<&'static str>) {
+    let place = Place::new();
+    let motion = "motion = { type = \"path\", points = [[0, 1, 0], [1, 1, 0]], period = 50 }";
+    place.write("scene.toml", &format!("{SCENE}{motion}\n"));
+    let size = ["--size", "640x480", "--msaa", "16"];
+    let animate = ["animate", "scene.toml", "-o", "a.apng", "--technique", "raytraced"];
+    (place, [animate.as_slice(), &size].concat())
+}
+
+/// Whether whoever runs the tests has them ignore that the terminal hangs up, which children inherit.
+fn hangup_is_ignored() -> bool {
+    let about = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = about.lines().find_map(|line| line.strip_prefix("SigIgn:")).unwrap_or("1");
+    u64::from_str_radix(mask.trim(), 16).is_ok_and(|mask| mask & 1 != 0)
 }
 
 #[test]
 fn an_interrupt_leaves_nothing() {
     let place = Place::new();
-    interrupted(&place, &["demo", "-o", "pictures", "--backend", "cpu", "--size", "1280x720"], "pictures");
-    let motion = "motion = { type = \"path\", points = [[0, 1, 0], [1, 1, 0]], period = 50 }";
-    place.write("scene.toml", &format!("{SCENE}{motion}\n"));
-    let animate = ["animate", "scene.toml", "-o", "a.apng", "--technique", "raytraced", "--size", "640x480"];
-    interrupted(&place, &animate, ".");
+    let demo = ["demo", "-o", "pictures", "--backend", "cpu", "--size", "1280x720"];
+    let child = at_work(&place, place.command(demo), "pictures");
+    send(&child, "-INT");
+    assert_ended(&place, child, 130);
+}
+
+#[test]
+fn no_signal_that_ends_the_program_leaves_anything() {
+    for (signal, code) in [("-INT", 130), ("-TERM", 143), ("-HUP", 129)] {
+        if signal == "-HUP" && hangup_is_ignored() {
+            continue;
+        }
+        let (place, animate) = long_work();
+        let child = at_work(&place, place.command(animate), ".");
+        send(&child, signal);
+        assert_ended(&place, child, code);
+    }
+}
+
+#[test]
+fn what_is_to_outlive_its_terminal_does() {
+    let (place, animate) = long_work();
+    let mut command = Command::new("nohup");
+    command.arg(env!("CARGO_BIN_EXE_antumbra")).args(animate);
+    let mut child = at_work(&place, command, ".");
+    send(&child, "-HUP");
+    std::thread::sleep(Duration::from_millis(500));
+    assert!(child.try_wait().expect("a child").is_none(), "still at work");
+    send(&child, "-TERM");
+    assert_ended(&place, child, 143);
 }

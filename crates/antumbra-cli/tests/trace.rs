@@ -194,3 +194,81 @@ fn files_are_replaced_and_links_followed() {
         assert_eq!(Png::read(&place.file("a.png")).width, 8, "its target was replaced");
     }
 }
+
+/// Traces quickly to a file.
+#[cfg(unix)]
+fn traced(place: &Place, output: &str) -> std::process::Output {
+    place.run(["trace", "scene.toml", "-o", output, "--samples", "1", "--size", "8x8"])
+}
+
+#[cfg(unix)]
+#[test]
+fn permissions_are_kept() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = Place::new();
+    let mode =
+        |name: &str| fs::metadata(place.file(name)).expect("it is there").permissions().mode() & 0o7777;
+    // Made as any other program makes it.
+    place.write("usual", "");
+    assert_success(&traced(&place, "new.png"));
+    assert_eq!(mode("new.png"), mode("usual"), "a new file is as any other");
+    std::os::unix::fs::symlink("link-to.png", place.file("link.png")).expect("writable");
+    for wanted in [0o600, 0o644, 0o666, 0o750] {
+        for (name, file) in [("a.png", "a.png"), ("link.png", "link-to.png")] {
+            place.write(file, "old");
+            fs::set_permissions(place.file(file), fs::Permissions::from_mode(wanted)).expect("its own file");
+            assert_success(&traced(&place, name));
+            assert_eq!(Png::read(&place.file(file)).width, 8, "it was replaced");
+            assert_eq!(mode(file), wanted, "{wanted:o} is kept");
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_followed_wherever_they_lead() {
+    use std::os::unix::fs::symlink;
+    let place = Place::new();
+    fs::create_dir(place.file("there")).expect("writable");
+    fs::create_dir(place.file("masks")).expect("writable");
+    let links = [
+        ("first.png", "there/second.png"),
+        ("there/second.png", "new.png"),
+        ("masks/sun.png", "../there/sun.png"),
+        ("lost.png", "nowhere/new.png"),
+        ("a.png", "b.png"),
+        ("b.png", "a.png"),
+        ("dir.png", "there"),
+    ];
+    for (link, to) in links {
+        symlink(to, place.file(link)).expect("writable");
+    }
+    let before = place.entries();
+    for (output, text) in [
+        (
+            "lost.png",
+            "lost.png: is a link to nowhere/new.png; nowhere: there is no such directory; make it first",
+        ),
+        ("a.png", "too many links"),
+        ("dir.png", "is a directory; name a file"),
+    ] {
+        common::assert_refused(&traced(&place, output), text);
+        assert_eq!(place.entries(), before, "nothing is written");
+    }
+    let arguments = ["trace", "scene.toml", "-o", "first.png", "--samples", "1", "--visibility", "masks"];
+    for _new_and_replaced in 0..2 {
+        assert_success(&place.run(arguments));
+        for file in ["there/new.png", "there/sun.png", "masks/key.png"] {
+            assert!(!place.file(file).is_symlink(), "{file}");
+            assert_eq!(Png::read(&place.file(file)).width, WIDTH, "{file}");
+        }
+    }
+    for (link, to) in links {
+        assert_eq!(fs::read_link(place.file(link)).expect("still a link"), Path::new(to), "{link}");
+    }
+    assert_eq!(place.entries().len(), before.len() + 3, "and no temporary file");
+    // Two lights in one file.
+    fs::remove_file(place.file("masks/key.png")).expect("writable");
+    symlink("sun.png", place.file("masks/key.png")).expect("writable");
+    common::assert_refused(&place.run(arguments), "would write one file");
+}

@@ -40,7 +40,8 @@ use crate::technique::Technique;
         antumbra compare scene.toml                        every technique beside the truth, as a page\n  \
         antumbra bench                                     how long every technique takes, as charts\n  \
         antumbra info                                      the OpenGL driver\n\n\
-        Exit code: 0, or 2 with one line `error: ...`. No partial file is ever left behind.",
+        Exit code: 0, or 2 with one line `error: ...`. Every file appears as a whole or not at all: an error, Ctrl-C or \
+        termination leaves neither a part of one nor a temporary one.",
     args_conflicts_with_subcommands = true
 )]
 pub(crate) struct Cli {

@@ -1,10 +1,11 @@
 //! Picture files: which they are ([`plan`]), what is in them ([`png`], [`apng`], [`exr`]), and how they come to be at once or
-//! not at all ([`staged`]).
+//! not at all ([`staged`]), whatever ends the program ([`signals`]).
 
 pub(crate) mod apng;
 pub(crate) mod exr;
 pub(crate) mod plan;
 pub(crate) mod png;
+pub(crate) mod signals;
 pub(crate) mod staged;
 
 use std::io::{self, Seek, Write};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use antumbra_scene::Light;
 
-use super::staged::{Staged, parent, probe};
+use super::staged::{Staged, parent, probe, target};
 use super::{Format, Picture, png};
 use crate::error::CliError;
 
@@ -51,17 +51,16 @@ impl Plan {
             return Err(CliError::output(directory, "is the picture too; name another directory"));
         }
         let mut files = Vec::with_capacity(lights.len());
-        let mut seen: HashMap<String, &str> = HashMap::new();
+        let mut seen: HashMap<PathBuf, &str> = HashMap::new();
         for light in lights {
-            let name = file_name(directory, &light.name)?;
-            if let Some(other) = seen.insert(folded(&name), &light.name) {
+            let file = directory.join(file_name(directory, &light.name)?);
+            let written = place(&check_file(&file)?);
+            if let Some(other) = seen.insert(folded(&written), &light.name) {
                 let what = format!("lights `{other}` and `{}` would write one file; rename one", light.name);
                 return Err(CliError::output(directory, what));
             }
-            let file = directory.join(name);
-            check_file(&file)?;
             refuse_scene(scene, &file)?;
-            if place(&file) == place(&picture) {
+            if written == place(&picture) {
                 let what = format!(
                     "is the picture and the visibility of light `{}`; name another picture or directory",
                     light.name
@@ -73,7 +72,7 @@ impl Plan {
         Ok(Self { picture, format, visibility: Some((directory.to_owned(), files)) })
     }
 
-    /// Writes everything, or leaves nothing: `visibility` holds one picture for each light that [`Plan::new`] saw.
+    /// Writes everything, or leaves nothing new: `visibility` holds one picture for each light that [`Plan::new`] saw.
     /// Returns what was written.
     ///
     /// # Errors
@@ -112,18 +111,25 @@ pub(crate) fn check_directory(directory: &Path) -> Result<(), CliError> {
     }
 }
 
-/// Checks that `path` is free, or a plain file that may be replaced.
+/// Checks that `path` is free, or a plain file that may be replaced, or a link to where that is so. Returns the file that
+/// writing to it makes or replaces.
 ///
 /// # Errors
 /// [`CliError::Output`] with what is in the way.
-pub(crate) fn check_file(path: &Path) -> Result<(), CliError> {
-    match path.symlink_metadata() {
+pub(crate) fn check_file(path: &Path) -> Result<PathBuf, CliError> {
+    let file = target(path).map_err(|error| CliError::output(path, format!("cannot be written: {error}")))?;
+    if file != path
+        && let Err(error) = probe_directory(parent(&file))
+    {
+        return Err(CliError::output(path, format!("is a link to {}; {error}", file.display())));
+    }
+    match file.symlink_metadata() {
         Ok(about) if about.is_dir() => Err(CliError::output(path, "is a directory; name a file")),
-        Ok(about) if !about.is_file() && !about.is_symlink() => {
+        Ok(about) if !about.is_file() => {
             Err(CliError::output(path, "is a device or the like; name a plain file"))
         }
-        Ok(_) => Ok(()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        Ok(_) => Ok(file),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(file),
         Err(error) => Err(CliError::output(path, format!("cannot be written: {error}"))),
     }
 }
@@ -157,16 +163,10 @@ pub(crate) fn extension(output: &Path, known: [&'static str; 2]) -> Result<&'sta
 /// # Errors
 /// [`CliError::Output`] with what is in the way, as [`Plan::new`].
 pub(crate) fn destination(scene: &Path, output: &Path) -> Result<PathBuf, CliError> {
-    let file = resolve_link(output);
-    check_file(&file)?;
+    let file = check_file(output)?;
     refuse_scene(scene, &file)?;
     probe_directory(parent(&file))?;
     Ok(file)
-}
-
-/// A link is followed, so that the file it points to is replaced and not the link.
-fn resolve_link(path: &Path) -> PathBuf {
-    if path.is_symlink() { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() }
 }
 
 fn probe_directory(directory: &Path) -> Result<(), CliError> {
@@ -209,9 +209,13 @@ fn file_name(directory: &Path, light: &str) -> Result<String, CliError> {
     Ok(format!("{light}.png"))
 }
 
-/// A file name as the usual file system of the platform compares it.
-fn folded(name: &str) -> String {
-    if cfg!(any(windows, target_os = "macos")) { name.to_lowercase() } else { name.to_owned() }
+/// A path as the usual file system of the platform compares it.
+fn folded(path: &Path) -> PathBuf {
+    if cfg!(any(windows, target_os = "macos")) {
+        path.to_string_lossy().to_lowercase().into()
+    } else {
+        path.to_owned()
+    }
 }
 
 /// Where a path leads, for comparing two that are written differently. The last component need not exist.

@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all: each is written beside its destination under a temporary name, and all are
 //! renamed at the end.
 
-use std::fs::{self, File};
+use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -10,8 +10,8 @@ use tempfile::{NamedTempFile, TempPath};
 
 use crate::error::CliError;
 
-/// What exists under a temporary name right now, for [`clean_up_on_interrupt`]. Whoever creates, renames or removes
-/// such a thing holds the lock meanwhile, so that an interrupt falls between two steps and never within one.
+/// What exists under a temporary name right now, for [`abandon`]. Whoever creates, renames or removes
+/// such a thing holds the lock meanwhile, so that a signal falls between two steps and never within one.
 static PENDING: Mutex<Pending> = Mutex::new(Pending { files: Vec::new(), directories: Vec::new() });
 
 struct Pending {
@@ -23,19 +23,17 @@ fn pending() -> MutexGuard<'static, Pending> {
     PENDING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// From now on an interrupt (Ctrl-C) removes the temporary files before the program ends with code 130.
-pub(crate) fn clean_up_on_interrupt() {
-    // Without a handler the program ends at once, and a temporary file may stay: a nuisance, not a failure.
-    let _ = ctrlc::set_handler(|| {
-        let pending = pending();
-        for file in &pending.files {
-            let _ = fs::remove_file(file);
-        }
-        for directory in pending.directories.iter().rev() {
-            let _ = fs::remove_dir(directory);
-        }
-        std::process::exit(130);
-    });
+/// Removes what has a temporary name, and ends the program.
+pub(crate) fn abandon(code: i32) -> ! {
+    // Held until the end, so that nothing new comes to be.
+    let pending = pending();
+    for file in &pending.files {
+        let _ = fs::remove_file(file);
+    }
+    for directory in pending.directories.iter().rev() {
+        let _ = fs::remove_dir(directory);
+    }
+    std::process::exit(code);
 }
 
 /// Whether a file can be made in a directory: makes one under a temporary name and removes it.
@@ -43,12 +41,13 @@ pub(crate) fn clean_up_on_interrupt() {
 /// # Errors
 /// What the file system says.
 pub(crate) fn probe(directory: &Path) -> io::Result<()> {
-    // Nothing is left to clean up: the lock keeps an interrupt out until the file is gone again.
+    // Nothing is left to clean up: the lock keeps a signal out until the file is gone again.
     let _pending = pending();
-    temporary(directory)?.close()
+    temporary(directory, None)?.close()
 }
 
-fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
+/// A file under a temporary name, with the permissions of the one that it will replace, or those of any new file.
+fn temporary(directory: &Path, before: Option<&Metadata>) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".antumbra-").suffix(".tmp");
     #[cfg(unix)]
@@ -57,7 +56,31 @@ fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
         // What any other new file gets, less the umask; a temporary file's own default is for its owner alone.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(directory)
+    let file = builder.tempfile_in(directory)?;
+    #[cfg(unix)]
+    if let Some(before) = before {
+        file.as_file().set_permissions(before.permissions())?;
+    }
+    #[cfg(not(unix))]
+    let _ = before;
+    Ok(file)
+}
+
+/// The file that writing to `path` makes or replaces: a link is followed, also where nothing is yet.
+///
+/// # Errors
+/// That there are too many links: they may lead in a circle.
+pub(crate) fn target(path: &Path) -> io::Result<PathBuf> {
+    let mut file = path.to_owned();
+    // As many as Linux follows.
+    for _ in 0..40 {
+        match fs::read_link(&file) {
+            Ok(to) => file = file.parent().unwrap_or(Path::new("")).join(to),
+            // No link, or nothing.
+            Err(_) => return Ok(file),
+        }
+    }
+    Err(io::Error::other("too many links, one to the other; name a file"))
 }
 
 /// Files on their way. Dropped before [`Staged::commit`], it leaves nothing behind.
@@ -85,7 +108,7 @@ impl Staged {
         }
     }
 
-    /// Writes one file under a temporary name.
+    /// Writes one file under a temporary name, in the directory of the file that `path` is or is a link to.
     ///
     /// # Errors
     /// [`CliError::Output`] where it cannot be written; another [`CliError`] that `write` wrapped by
@@ -100,15 +123,17 @@ impl Staged {
                 .downcast::<CliError>()
                 .unwrap_or_else(|error| CliError::output(path, format!("cannot write: {error}")))
         };
+        let place = target(path).map_err(failed)?;
         let file = {
             let mut pending = pending();
-            let file = temporary(parent(path)).map_err(failed)?;
+            let before = fs::metadata(&place).ok();
+            let file = temporary(parent(&place), before.as_ref()).map_err(failed)?;
             pending.files.push(file.path().to_owned());
             file
         };
         let (file, temporary) = file.into_parts();
         // From here on dropping `self` removes the file.
-        self.files.push((temporary, path.to_owned()));
+        self.files.push((temporary, place));
         let mut writer = BufWriter::new(&file);
         write(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
         drop(writer);
@@ -116,10 +141,11 @@ impl Staged {
         file.sync_all().map_err(failed)
     }
 
-    /// Gives every file its name; what had one of the names before is replaced.
+    /// Gives every file its name; what had one of the names before is replaced. No signal comes between two of them.
     ///
     /// # Errors
-    /// [`CliError::Output`] for the first that fails; those that did not exist before are removed again.
+    /// [`CliError::Output`] for the first that fails. Those that did not exist before are removed again; those that
+    /// were replaced until then, each as a whole, stay.
     pub(crate) fn commit(mut self) -> Result<(), CliError> {
         let mut pending = pending();
         let mut made: Vec<PathBuf> = Vec::new();
