@@ -40,8 +40,9 @@ use crate::technique::Technique;
         antumbra compare scene.toml                        every technique beside the truth, as a page\n  \
         antumbra bench                                     how long every technique takes, as charts\n  \
         antumbra info                                      the OpenGL driver\n\n\
-        Exit code: 0, or 2 with one line `error: ...`. Every file appears as a whole or not at all: an error, Ctrl-C or \
-        termination leaves neither a part of one nor a temporary one.",
+        Exit code: 0, or 2 with one line `error: ...`; 128 and the number of a signal that ended it.\n\
+        Every file that is asked for appears as a whole or not at all. An error, Ctrl-C or termination leaves no \
+        temporary one; a kill that no program can catch may leave one, `.antumbra-*.tmp`.",
     args_conflicts_with_subcommands = true
 )]
 pub(crate) struct Cli {

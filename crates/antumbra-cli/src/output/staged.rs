@@ -1,5 +1,5 @@
 //! Files that appear whole or not at all: each is written beside its destination under a temporary name, and all are
-//! renamed at the end.
+//! renamed at the end. A temporary one is removed whatever ends the program, but for a kill that no program can catch.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Write};
