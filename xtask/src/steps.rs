@@ -86,12 +86,13 @@ fn package(crates: &[Crate]) -> Vec<&str> {
 }
 
 /// The library's own tests once more, where an overflow and a broken invariant are a panic. What draws in the integration
-/// tests takes minutes and is left to the release build.
+/// tests takes minutes and is left to the release build, and so are the shaders, in which nothing of it shows.
 fn checked() -> Vec<&'static str> {
     let mut words = vec!["test", "--locked", "--profile", "checked", "--lib"];
     for name in LIBRARY {
         words.extend(["--package", name]);
     }
+    words.extend(["--", "--skip", "program_tests"]);
     words
 }
 

@@ -209,3 +209,121 @@ fn several_occluders() {
         assert!(found.rms() <= 0.0024, "{light}: rms {}", found.rms());
     }
 }
+
+/// Lights that an occluder crosses, holds, or is flush with.
+fn crossing(light_kind: usize, shape_kind: usize, cases: usize) -> Found {
+    let mut rng = fastrand::Rng::with_seed(70 + light_kind as u64);
+    let mut found = Found::default();
+    let (nodes, nodes_32) = (Nodes::new(8), Nodes::new(8));
+    let mut tries = 0;
+    while found.count < cases {
+        tries += 1;
+        assert!(tries < cases * 400, "enough of the cases are partly hidden");
+        let point = unit(&mut rng) * rng.f64() * 3.0;
+        let normal = unit(&mut rng);
+        let distance = 2.0 + 4.0 * rng.f64();
+        let size = distance * [0.05, 0.2, 0.4][rng.usize(0..3)];
+        let toward = (normal * (rng.f64() * 1.2) + unit(&mut rng)).normalize();
+        let center = point + toward * distance;
+        let direction = (unit(&mut rng) * 0.8 - toward).normalize();
+        let (light, kind) = main_light(light_kind, center, size, direction);
+        let radius = size * (0.3 + 1.7 * rng.f64());
+        let at = center + unit(&mut rng) * (rng.f64() * (size + radius));
+        let (shape, scene_shape, pose) = occluder(shape_kind, at, radius, &mut rng);
+        let tracer = tracer(kind, center, vec![(scene_shape, pose)]);
+        let surface = Surface { point, normal, primitive: 0, slack: 1e-10 };
+        // Few are hidden in part alone; of the others a few.
+        let partial = (0.002..0.998).contains(&tracer.visibility_at(0, &surface, 256, 3));
+        if !partial && rng.usize(0..10) > 0 {
+            continue;
+        }
+        let truth = tracer.visibility_at(0, &surface, 1 << 13, 5);
+        let v = pair_visibility(&light, &shape, point, normal, &nodes);
+        let single: f64 =
+            pair_visibility(&light, &shape, point.as_vec3(), normal.as_vec3(), &nodes_32).into();
+        if (v - truth).abs() > 0.05 && std::env::var_os("ANTUMBRA_VERBOSE").is_some() {
+            eprintln!("{v} for {truth}: {light:?}\n  {shape:?}\n  {point} {normal}");
+        }
+        found.add(v - truth, single - v);
+    }
+    found
+}
+
+#[test]
+fn an_occluder_that_crosses_the_light() {
+    for (l, light) in LIGHTS.iter().enumerate() {
+        for (s, shape) in SHAPES.iter().enumerate() {
+            let found = crossing(l, s, cases());
+            let (rms, largest, single) = (found.rms(), found.largest, found.largest_single);
+            println!(
+                "crossing {light} light, {shape}: rms {rms:.5}, largest {largest:.4}, float32 {single:.5}"
+            );
+            let (bound, most) = match (l, s) {
+                (0, 4) => (0.09, 0.4),
+                (_, 4) => (0.21, 0.8),
+                (_, 0) => (0.013, 0.065),
+                _ => (0.003, 0.02),
+            };
+            assert!(rms <= bound, "{light}, {shape}: rms {rms}");
+            assert!(largest <= most, "{light}, {shape}: largest {largest}");
+            assert!(single <= 0.0006, "{light}, {shape}: float32 differs by {single}");
+        }
+    }
+}
+
+/// What a solid holds is dark outside, and what is flush with a flat light or inside of a glowing ball hides nothing.
+#[test]
+fn held_and_flush() {
+    let nodes = Nodes::new(8);
+    let mut rng = fastrand::Rng::with_seed(5);
+    let mut judged = 0;
+    for _ in 0..2000 {
+        let (center, up) = (unit(&mut rng) * 50.0 * rng.f64(), unit(&mut rng));
+        let point = center - up * (1.5 + rng.f64()) + unit(&mut rng);
+        let normal = (center - point).normalize();
+        let one = |light: &AreaLight, shape: &Shape| {
+            let single: f64 =
+                pair_visibility(light, shape, point.as_vec3(), normal.as_vec3(), &Nodes::new(8)).into();
+            let double = pair_visibility(light, shape, point, normal, &nodes);
+            assert!((double - single).abs() < 1e-3, "{light:?} {shape:?} {point}: {double} {single}");
+            assert!((double == 1.0) == (single == 1.0), "{light:?} {shape:?} {point}: {double} {single}");
+            double
+        };
+        for kind in 0..3 {
+            let (light, _) = main_light(kind, center, 0.2, -up);
+            if point.distance(center) < 1.0 || (point - center).dot(up) > -0.1 {
+                continue;
+            }
+            judged += 1;
+            let aside = up.any_orthonormal_vector();
+            let held: [Shape; 2] = [
+                Sphere { center: center + aside * 0.1, radius: 0.4 }.into(),
+                Cone { base_center: center - up * 0.3, axis: up, radius: 0.6, height: 1.5 }.into(),
+            ];
+            for solid in &held {
+                assert_eq!(one(&light, solid), 0.0, "{light:?} is in {solid:?}");
+            }
+            let (half_right, half_forward) = (aside * 3.0, up.cross(aside) * 0.7);
+            let at = center + aside * rng.f64();
+            let flush: [Shape; 4] = [
+                Rectangle { center: at, half_right, half_forward }.into(),
+                Disc { center: at, normal: up, radius: 2.0 }.into(),
+                Triangle { vertices: [at - half_right, at + half_right, at + half_forward] }.into(),
+                antumbra_math::Plane::through(at, up).into(),
+            ];
+            let (wanted, within) = if kind == 0 {
+                (1.0, Sphere { center, radius: 0.15 }.into())
+            } else {
+                (1.0, Cone { base_center: at, axis: up, radius: 1.0, height: 1.0 }.into())
+            };
+            assert_eq!(one(&light, &within), wanted, "{within:?} is behind {light:?}");
+            for flat in flush.iter().filter(|_| kind > 0) {
+                assert_eq!(one(&light, flat), 1.0, "{flat:?} is flush with {light:?}");
+                // A hair before it, the same shape hides what it covers.
+                let before = flat.transformed(&glam::DMat4::from_translation(up * -1e-4));
+                assert!(one(&light, &before) < 1.0, "{before:?} is before {light:?}");
+            }
+        }
+    }
+    assert!(judged > 2000, "{judged} lights");
+}

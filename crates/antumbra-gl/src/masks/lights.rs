@@ -110,11 +110,11 @@ impl ShaderLight {
     }
 }
 
-/// The cosine at the receiver, averaged over a ball as its irradiance is; of a point for a radius of 0. The twin of
-/// `antumbra_ball_cosine` in `lights.glsl`.
+/// The cosine at the receiver, averaged over a ball as its irradiance is; of a point for a radius of 0. From inside a ball its
+/// glow fills the half of all directions around its centre. The twin of `antumbra_ball_cosine` in `lights.glsl`.
 fn ball_cosine(radius: f32, square: f32, cosine: f32) -> f32 {
     let sine = radius / square.sqrt();
-    if radius > 0.0 && sine < 1.0 { cap_irradiance(sine, cosine) / (sine * sine) } else { cosine.max(0.0) }
+    if radius > 0.0 { cap_irradiance(sine.min(1.0), cosine) / (sine * sine) } else { cosine.max(0.0) }
 }
 
 /// How a light weakens with the distance. The twin of `antumbra_falloff` in `lights.glsl`.

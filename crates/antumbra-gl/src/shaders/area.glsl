@@ -31,6 +31,7 @@ struct AntumbraPatch {
     bool round;
     float reach;  // distance of the light's centre
     float tangent_2;  // square of the tangents' length to a ball, of the distance to a flat light's centre
+    float radius_2;   // square of a ball's radius; 0 of a flat light
     bool faces;   // whether it sends anything to the point
 };
 
@@ -48,15 +49,16 @@ AntumbraPatch antumbra_patch_of_sphere(vec3 center, float radius, vec3 point, ve
     vec3 origin = to_light / reach;
     float tangent = radius * inversesqrt(max(outside, 1e-30));
     vec3 right = antumbra_level_axis(origin, normal);
-    return AntumbraPatch(origin, right * tangent, cross(origin, right) * tangent, true, reach, outside, outside > 0.0);
+    return AntumbraPatch(origin, right * tangent, cross(origin, right) * tangent, true, reach, outside, radius * radius,
+                         outside > 0.0);
 }
 
 AntumbraPatch antumbra_patch_of_flat(vec3 center, vec3 direction, vec3 half_right, vec3 half_up, bool round, vec3 point) {
     vec3 to_light = center - point;
     float reach = length(to_light);
     float scale = 1.0 / reach;
-    return AntumbraPatch(to_light * scale, half_right * scale, half_up * scale, round, reach, reach * reach,
-                      dot(to_light, direction) < 0.0);
+    return AntumbraPatch(to_light * scale, half_right * scale, half_up * scale, round, reach, reach * reach, 0.0,
+                         dot(to_light, direction) < 0.0);
 }
 
 AntumbraPatch antumbra_patch_of_disc(vec3 center, vec3 direction, float radius, vec3 point, vec3 normal) {

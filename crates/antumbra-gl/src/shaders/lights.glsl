@@ -31,11 +31,12 @@ float antumbra_falloff(vec4 attenuation, vec4 reach, float distance, float squar
 }
 
 #ifdef ANTUMBRA_BALL_LIGHTS
-// The cosine at the receiver, averaged over a ball as its irradiance is; of a point for a radius of 0.
+// The cosine at the receiver, averaged over a ball as its irradiance is; of a point for a radius of 0. From inside a ball its
+// glow fills the half of all directions around its centre.
 float antumbra_ball_cosine(float radius, float square, float cosine) {
     float sine = radius * inversesqrt(square);
     float ball = antumbra_cap_irradiance(min(sine, 1.0), cosine) / max(sine * sine, 1e-30);
-    return radius > 0.0 && sine < 1.0 ? ball : max(cosine, 0.0);
+    return radius > 0.0 ? ball : max(cosine, 0.0);
 }
 #endif
 

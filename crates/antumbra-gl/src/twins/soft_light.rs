@@ -157,6 +157,7 @@ fn a_narrow_penumbra_is_a_pixel_wide() {
         round: true,
         reach: 10.0,
         tangent_2: 100.0,
+        radius_2: 1e-6,
     };
     let footprint = Footprint { point: Vec3::ZERO, dx: Vec3::X * 0.02, dy: Vec3::Z * 0.02 };
     // The edge of an occluder half way moves on the light by as much as the point does: 0.02 of 10 metres a pixel.

@@ -24,13 +24,15 @@ mod occluder;
 mod outline;
 mod patch;
 mod region;
+mod standing;
 
 pub use interval::Interval;
 pub use nodes::Nodes;
 pub use occluder::{Hidden, cone_triangle};
 pub use outline::{PenumbraOutline, Zone};
 pub use patch::{Line, Patch, Strips, cap_irradiance};
-pub use region::{Conic, Polygon};
+pub use region::{Cap, Conic, Polygon};
+pub use standing::Standing;
 
 use crate::Shape;
 use crate::real::{Real, Vector};
@@ -93,9 +95,9 @@ impl AreaLight {
 /// occluder: from 0 to 1.
 ///
 /// 0 where no light arrives even without it: behind the receiver's horizon, behind a flat light. 1 inside a glowing
-/// ball. 0 inside a solid. A flat occluder that crosses the light's own plane (for a ball, the plane through its centre
-/// at right angles to the line of sight) hides with the part before it; of two balls the one with the shorter tangents
-/// is before the other.
+/// ball. 0 inside a solid, and of a light that a solid holds. Of a light that an occluder crosses that part is hidden
+/// which is inside or beyond: exactly, but for cones, which hide with the part of their base and of their outline that is
+/// before the light's middle.
 pub fn pair_visibility<V: Vector>(
     light: &AreaLight,
     occluder: &Shape,
@@ -122,7 +124,8 @@ pub fn visibility<V: Vector>(
         nodes.integrate(strips.round, rows.and(strips.rows()), |y| {
             let seen = strips.seen(y);
             intervals.clear();
-            intervals.extend(hidden.iter().map(|one| one.interval(y).and(seen)).filter(|i| !i.is_empty()));
+            let all = hidden.iter().flat_map(|one| one.intervals(y)).map(|hidden| hidden.and(seen));
+            intervals.extend(all.filter(|interval| !interval.is_empty()));
             intervals.sort_by(|a, b| a.low.partial_cmp(&b.low).unwrap_or(core::cmp::Ordering::Equal));
             let (mut sum, mut at) = (V::Real::ZERO, seen.low);
             for interval in &intervals {
@@ -150,8 +153,8 @@ fn visibility_of<V: Vector>(
     };
     let strips = Strips::new(&patch, normal);
     let whole = strips.whole(nodes);
-    let hidden: Vec<_> = occluders.iter().map(|shape| Hidden::new(shape, point, &patch)).collect();
-    if !(whole > zero) || hidden.iter().any(|one| matches!(one, Hidden::All)) {
+    let hidden: Vec<_> = occluders.iter().map(|shape| Hidden::new(light, shape, point, &patch)).collect();
+    if !(whole > zero) || hidden.iter().any(Hidden::is_all) {
         return zero;
     }
     (one - taken(&hidden, &strips) / whole).clamp(zero, one)

@@ -22,6 +22,8 @@ pub struct Patch<V: Vector> {
     pub reach: V::Real,
     /// The square of the tangents' length to a ball, of `reach` to a flat light: a ball with longer tangents is behind.
     pub tangent_2: V::Real,
+    /// The square of a ball's radius, 0 of a flat light.
+    pub radius_2: V::Real,
 }
 
 /// A unit vector at right angles to the unit vector `axis`, and to `normal` if the two are not parallel.
@@ -51,7 +53,15 @@ impl<V: Vector> Patch<V> {
         let tangent = radius / outside.sqrt();
         let right = level_axis(origin, normal);
         let up = origin.cross(right) * tangent;
-        Some(Self { origin, right: right * tangent, up, round: true, reach, tangent_2: outside })
+        Some(Self {
+            origin,
+            right: right * tangent,
+            up,
+            round: true,
+            reach,
+            tangent_2: outside,
+            radius_2: radius * radius,
+        })
     }
 
     /// A disc that shines along the unit vector `direction`; `None` from behind, or in its plane.
@@ -81,7 +91,21 @@ impl<V: Vector> Patch<V> {
             round,
             reach,
             tangent_2: reach * reach,
+            radius_2: V::Real::ZERO,
         })
+    }
+
+    /// Positive where the plane of a flat occluder is before the light; `normal`, of unit length, points away from the
+    /// point, and the light's centre is so far over the plane along it.
+    ///
+    /// Of a ball the parts before and beyond are told apart by the chord between the points in which the plane's circle
+    /// touches the outline: what is beyond it and outside of the circle is hidden.
+    pub(super) fn before(&self, normal: V, over: V::Real) -> Line<V::Real> {
+        Line {
+            one: over * self.reach - self.radius_2 * normal.dot(self.origin),
+            x: self.tangent_2 * normal.dot(self.right),
+            y: self.tangent_2 * normal.dot(self.up),
+        }
     }
 
     /// A linear function of direction, over the patch.
@@ -105,11 +129,6 @@ impl<R: Real> Line<R> {
     /// Its value on the strip at `y`, at x = 0.
     pub fn at(&self, y: R) -> R {
         self.one + self.y * y
-    }
-
-    /// The function less a number.
-    pub(super) fn less(self, number: R) -> Self {
-        Self { one: self.one - number, ..self }
     }
 
     /// The x of the strip at `y` where it is positive.

@@ -32,11 +32,10 @@ impl<R: Real> Conic<R> {
         }
     }
 
-    /// A flat disc, its centre as the point sees it, with a unit normal to either side; nothing if the point lies in
-    /// its plane.
-    pub fn of_disc<V: Vector<Real = R>>(center: V, normal: V, radius: R, patch: &Patch<V>) -> Self {
-        let height = center.dot(normal);
-        let normal = if height < R::ZERO { -normal } else { normal };
+    /// A flat disc, its centre as the point sees it, with a unit normal to either side, which the light's centre is `over`
+    /// the disc along; nothing if the point lies in its plane.
+    pub fn of_disc<V: Vector<Real = R>>(center: V, normal: V, radius: R, over: R, patch: &Patch<V>) -> Self {
+        let (normal, over) = if center.dot(normal) < R::ZERO { (-normal, -over) } else { (normal, over) };
         // Where a direction meets the disc's plane, seen from the centre, times its part along the normal.
         let e = [patch.right, patch.origin, patch.up].map(|w| normal.cross(w.cross(center)));
         let w = [patch.right, patch.origin, patch.up].map(|w| w.dot(normal));
@@ -45,8 +44,22 @@ impl<R: Real> Conic<R> {
         Self {
             form: [form(0, 0), form(0, 1), form(0, 2), form(1, 1), form(1, 2), form(2, 2)],
             ahead: patch.line(normal),
-            before: patch.line(normal * patch.reach).less(height.abs()),
+            before: patch.before(normal, over),
         }
+    }
+
+    /// The disc in which a plane cuts the light, a ball, as seen against the light: what it covers is this side of the
+    /// plane. `normal`, of unit length, points away from the point, and the light's centre is `over` the plane along it.
+    /// `None` where the plane passes by the ball.
+    pub fn of_cut<V: Vector<Real = R>>(normal: V, over: R, patch: &Patch<V>) -> Option<Self> {
+        let square = patch.radius_2 - over * over;
+        let center = patch.origin * patch.reach - normal * over;
+        (square > R::ZERO).then(|| Self::of_disc(center, normal, square.sqrt(), R::INFINITY, patch))
+    }
+
+    /// The conic with another [`Self::before`].
+    pub(super) fn with_before(self, before: Line<R>) -> Self {
+        Self { before, ..self }
     }
 
     /// The y of strips that the conic is on, at least: all of an ellipse's, one branch's of a hyperbola.
@@ -99,6 +112,35 @@ impl<R: Real> Conic<R> {
     }
 }
 
+/// A ball, or the part of one that is before a light: the hull of it and of the circle in which it meets the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cap<R: Real> {
+    ball: Conic<R>,
+    ring: Option<Conic<R>>,
+}
+
+impl<R: Real> Cap<R> {
+    /// All of a ball.
+    pub fn new(ball: Conic<R>) -> Self {
+        Self { ball, ring: None }
+    }
+
+    /// The hull of it and of a circle.
+    pub(super) fn with_ring(self, ring: Conic<R>) -> Self {
+        Self { ring: Some(ring), ..self }
+    }
+
+    /// The y of strips that it is on, at least.
+    pub fn rows(&self) -> Interval<R> {
+        self.ring.iter().fold(self.ball.rows(), |rows, ring| rows.hull(ring.rows()))
+    }
+
+    /// The x inside, on the strip at `y`.
+    pub fn interval(&self, y: R) -> Interval<R> {
+        self.ring.iter().fold(self.ball.interval(y), |inside, ring| inside.hull(ring.interval(y)))
+    }
+}
+
 /// The inside of a convex polygon on a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Polygon<R: Real, const N: usize> {
@@ -110,17 +152,15 @@ pub struct Polygon<R: Real, const N: usize> {
 
 impl<R: Real, const N: usize> Polygon<R, N> {
     /// A convex polygon, its corners as the point sees them, in order; nothing if the point lies in its plane, or it
-    /// has no area.
-    pub fn new<V: Vector<Real = R>>(corners: &[V; N], patch: &Patch<V>) -> Self {
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let height = normal.dot(corners[0]);
-        let side = if height < R::ZERO { -R::ONE } else { R::ONE };
+    /// has no area. The light's centre is `over` its plane, along the normal that the corners run around counter-clockwise.
+    pub fn new<V: Vector<Real = R>>(corners: &[V; N], over: R, patch: &Patch<V>) -> Self {
+        let normal = corners_normal(corners);
+        let side = if normal.dot(corners[0]) < R::ZERO { -R::ONE } else { R::ONE };
         let mut edges = [Line { one: -R::ONE, x: R::ZERO, y: R::ZERO }; N];
         for i in 0..N {
             edges[i] = patch.line(corners[i].cross(corners[(i + 1) % N]) * side);
         }
-        let before = patch.line(normal * (side * patch.reach)).less(height.abs());
-        Self { edges, before, rows: corner_rows(corners, patch) }
+        Self { edges, before: patch.before(normal * side, over * side), rows: corner_rows(corners, patch) }
     }
 
     /// The y of the corners.
@@ -153,8 +193,8 @@ fn corner_rows<V: Vector, const N: usize>(corners: &[V; N], patch: &Patch<V>) ->
     rows
 }
 
-/// The part of a patch beyond an infinite plane with the given unit normal, the point at `height` over it.
-pub(super) fn beyond_plane<V: Vector>(normal: V, height: V::Real, patch: &Patch<V>) -> Line<V::Real> {
-    let down = if height < V::Real::ZERO { normal } else { -normal };
-    patch.line(down * patch.reach).less(height.abs())
+/// The unit normal that corners run around counter-clockwise.
+pub(super) fn corners_normal<V: Vector>(corners: &[V]) -> V {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    normal * (V::Real::ONE / normal.length())
 }

@@ -7,10 +7,16 @@ uniform highp sampler2D u_blockers;
 
 flat out vec4 v_blocker[BLOCKER_TEXELS];
 flat out vec4 v_channel;
+#ifdef SEAMS
+flat out highp uint v_first;
+#endif
 flat out highp uint v_id;
 
 void main() {
     uint first = a_blocker.x >> 2u;
+#ifdef SEAMS
+    v_first = first;
+#endif
     int width = textureSize(u_blockers, 0).x;
     for (int i = 0; i < BLOCKER_TEXELS; i++) {
         int texel = int(first) + i;

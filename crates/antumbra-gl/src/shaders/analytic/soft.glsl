@@ -23,6 +23,16 @@ struct Conic {
     vec3 before;
 };
 
+// A distance for infinity: all of the light is on one side of a plane.
+#define ALL_OVER 1e20
+
+// Positive where the plane of a flat occluder is before the light, whose centre is `over` it along the unit normal, which
+// points away from the point.
+vec3 patch_before(AntumbraPatch p, vec3 normal, float over) {
+    return vec3(over * p.reach - p.radius_2 * dot(normal, p.origin), p.tangent_2 * dot(normal, p.right),
+                p.tangent_2 * dot(normal, p.up));
+}
+
 Conic conic_of_sphere(vec3 center, float radius, AntumbraPatch p) {
     vec3 kx = cross(center, p.right);
     vec3 k1 = cross(center, p.origin);
@@ -36,9 +46,9 @@ Conic conic_of_sphere(vec3 center, float radius, AntumbraPatch p) {
     return Conic(x, one, antumbra_patch_line(p, center), vec3(nearer, 0.0, 0.0));
 }
 
-Conic conic_of_disc(vec3 center, vec3 normal, float radius, AntumbraPatch p) {
-    float height = dot(center, normal);
-    normal = height < 0.0 ? -normal : normal;
+Conic conic_of_disc(vec3 center, vec3 normal, float radius, float over, AntumbraPatch p) {
+    float side = dot(center, normal) < 0.0 ? -1.0 : 1.0;
+    normal *= side;
     vec3 ex = cross(normal, cross(p.right, center));
     vec3 e1 = cross(normal, cross(p.origin, center));
     vec3 ey = cross(normal, cross(p.up, center));
@@ -47,7 +57,17 @@ Conic conic_of_disc(vec3 center, vec3 normal, float radius, AntumbraPatch p) {
     vec3 x = vec3(dot(ex, ex), dot(ex, e1), dot(ex, ey)) - square * ahead.y * vec3(ahead.y, ahead.x, ahead.z);
     vec3 one = vec3(dot(e1, e1), dot(e1, ey), dot(ey, ey))
              - square * vec3(ahead.x * ahead.x, ahead.x * ahead.z, ahead.z * ahead.z);
-    return Conic(x, one, ahead, ahead * p.reach - vec3(abs(height), 0.0, 0.0));
+    return Conic(x, one, ahead, patch_before(p, normal, over * side));
+}
+
+// The disc in which a plane cuts a ball of light, as seen against it: what it covers is this side of the plane. False
+// where the plane passes by.
+bool conic_of_cut(vec3 normal, float over, AntumbraPatch p, out Conic cut) {
+    float square = p.radius_2 - over * over;
+    vec3 center = p.origin * p.reach - normal * over;
+    float radius = sqrt(max(square, 0.0));
+    cut = conic_of_disc(center, normal, radius, dot(center, normal) < 0.0 ? -ALL_OVER : ALL_OVER, p);
+    return square > 0.0;
 }
 
 vec2 conic_rows(Conic c) {
@@ -91,10 +111,14 @@ struct Polygon {
     vec2 rows;
 };
 
-Polygon polygon_of(vec3 corners[CORNERS], AntumbraPatch p) {
+vec3 corners_normal(vec3 corners[CORNERS]) {
     vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    float height = dot(normal, corners[0]);
-    float side = height < 0.0 ? -1.0 : 1.0;
+    return normal * inversesqrt(max(dot(normal, normal), 1e-37));
+}
+
+Polygon polygon_of(vec3 corners[CORNERS], float over, AntumbraPatch p) {
+    vec3 normal = corners_normal(corners);
+    float side = dot(normal, corners[0]) < 0.0 ? -1.0 : 1.0;
     Polygon polygon;
     vec3 forward = cross(p.right, p.up);
     float volume = 1.0 / dot(p.origin, forward);
@@ -110,7 +134,7 @@ Polygon polygon_of(vec3 corners[CORNERS], AntumbraPatch p) {
         float y = dot(corner, upward) / weight;
         rows = vec2(min(rows.x, y), max(rows.y, y));
     }
-    polygon.before = antumbra_patch_line(p, normal * (side * p.reach)) - vec3(abs(height), 0.0, 0.0);
+    polygon.before = patch_before(p, normal * side, over * side);
     polygon.rows = in_front ? rows : vec2(-ANTUMBRA_FAR_AWAY, ANTUMBRA_FAR_AWAY);
     return polygon;
 }
@@ -119,6 +143,57 @@ vec2 polygon_interval(Polygon polygon, float y) {
     vec2 inside = antumbra_line_positive(polygon.before, y);
     for (int i = 0; i < CORNERS; i++) {
         inside = antumbra_interval_and(inside, antumbra_line_positive(polygon.edges[i], y));
+    }
+    return inside;
+}
+#endif
+
+#if defined(SPHERE) || defined(UNION)
+// A ball, or the part of one that is before a light.
+struct Cap {
+    Conic ball;
+    Conic ring;   // the circle in which the ball meets the light
+    int has_ring; // 1 if it does, otherwise 0
+};
+
+Cap cap_of(Conic ball) {
+    return Cap(ball, ball, 0);
+}
+
+// What a ball hides of a light that it crosses, as Standing::Circle has it: `sizes` are its radius, and the circle's
+// distance before its centre and radius, along the unit vector `toward`. `kept` is what of the inside is not hidden.
+Cap hidden_crossing(vec3 center, vec3 sizes, vec3 toward, AntumbraPatch p, out Conic kept, out bool keeps) {
+    vec3 middle = center - toward * sizes.y;
+    float height = dot(toward, middle);
+    float over = dot(toward, p.origin * p.reach - middle);
+    bool cut = conic_of_cut(toward, over, p, kept);
+    keeps = cut && height > 0.0;
+    // From the light's side: what is beyond the circle's plane, within an outline about that of the light itself.
+    float wide = sqrt(p.radius_2 + 0.1 * p.tangent_2);
+    Conic whole = conic_of_sphere(p.origin * p.reach, wide, p);
+    whole.before = patch_before(p, toward, over);
+    float side = height < 0.0 ? -1.0 : 1.0;
+    Conic ball = conic_of_sphere(center, sizes.x, p);
+    float tangent_2 = dot(center, center) - sizes.x * sizes.x;
+    ball.before = antumbra_patch_line(p, (center * height - toward * tangent_2) * side);
+    Conic ring = conic_of_disc(middle, toward, sizes.z, ALL_OVER * side, p);
+    bool beyond = keeps;
+    return Cap(Conic(beyond ? whole.x : ball.x, beyond ? whole.one : ball.one, beyond ? whole.ahead : ball.ahead,
+                        beyond ? whole.before : ball.before), ring, beyond ? 0 : 1);
+}
+
+vec2 cap_rows(Cap h) {
+    vec2 rows = conic_rows(h.ball);
+    for (int k = 0; k < h.has_ring; k++) {
+        rows = interval_hull(rows, conic_rows(h.ring));
+    }
+    return rows;
+}
+
+vec2 cap_interval(Cap h, float y) {
+    vec2 inside = conic_interval(h.ball, y);
+    for (int k = 0; k < h.has_ring; k++) {
+        inside = interval_hull(inside, conic_interval(h.ring, y));
     }
     return inside;
 }
@@ -176,6 +251,16 @@ vec2 hidden_rows(Hidden h) {
 vec2 hidden_interval(Hidden h, float y) {
     return antumbra_line_positive(h, y);
 }
+#elif defined(SPHERE)
+#define Hidden Cap
+
+vec2 hidden_rows(Hidden h) {
+    return cap_rows(h);
+}
+
+vec2 hidden_interval(Hidden h, float y) {
+    return cap_interval(h, y);
+}
 #else
 #define Hidden Conic
 
@@ -228,8 +313,9 @@ vec2 nodes_support(Hidden h, AntumbraStrips strips) {
     return found && rows.x < rows.y ? vec2(low, high) : EMPTY;
 }
 
-// The irradiance that is hidden, in the units of strips_irradiance.
-float hidden_taken(Hidden h, AntumbraStrips strips) {
+// The irradiance that is hidden, in the units of strips_irradiance. `cuts` is 1 where what is inside of `kept` is not hidden,
+// otherwise 0: a loop, because both sides of a branch cost.
+float hidden_taken(Hidden h, AntumbraStrips strips, Conic kept, int cuts) {
     vec2 rows = nodes_support(h, strips);
     float half_rows = max((rows.y - rows.x) * 0.5, 0.0);
     float middle = (rows.x + rows.y) * 0.5;
@@ -239,6 +325,10 @@ float hidden_taken(Hidden h, AntumbraStrips strips) {
         float y = middle + half_rows * node.x;
         vec2 hidden = antumbra_interval_and(hidden_interval(h, y), antumbra_strips_seen(strips, y));
         sum += node.y * antumbra_strips_irradiance(strips, y, hidden);
+        for (int k = 0; k < cuts; k++) {
+            vec2 seen = antumbra_interval_and(hidden, conic_interval(kept, y));
+            sum -= node.y * antumbra_strips_irradiance(strips, y, seen);
+        }
     }
     return half_rows > 0.0 ? sum * half_rows : 0.0;
 }

@@ -36,9 +36,22 @@ bool ball_hides(int shape, SurfacePoint s, out float apart, inout bool solid) {
     return !inside;
 }
 
-Conic ball_hidden(int shape, SurfacePoint s, AntumbraPatch p) {
+Cap ball_hidden(int shape, SurfacePoint s, AntumbraPatch p, vec4 light, vec3 direction, out Conic kept, out int cuts) {
     vec4 ball = texel(shape);
-    return conic_of_sphere(ball.xyz - s.position, ball.w, p);
+    vec4 circle = texel(shape + 1);
+    vec3 center = ball.xyz - s.position;
+    Cap hidden = cap_of(conic_of_sphere(center, ball.w, p));
+    bool keeps = false;
+    for (int k = 0; k < int(circle.z); k++) {
+#if LIGHT_TEXELS == 1
+        vec3 toward = normalize(ball.xyz - light.xyz);
+#else
+        vec3 toward = -direction;
+#endif
+        hidden = hidden_crossing(center, vec3(ball.w, circle.xy), toward, p, kept, keeps);
+    }
+    cuts = keeps ? 1 : 0;
+    return hidden;
 }
 
 bool disc_hides(int shape, SurfacePoint s, out float apart) {
@@ -49,7 +62,8 @@ bool disc_hides(int shape, SurfacePoint s, out float apart) {
 
 Conic disc_hidden(int shape, SurfacePoint s, AntumbraPatch p) {
     vec4 disc = texel(shape);
-    return conic_of_disc(disc.xyz - s.position, texel(shape + 1).xyz, disc.w, p);
+    vec4 axis = texel(shape + 1);
+    return conic_of_disc(disc.xyz - s.position, axis.xyz, disc.w, axis.w, p);
 }
 
 bool corners_hide(int shape, SurfacePoint s, out float apart) {
@@ -60,12 +74,13 @@ bool corners_hide(int shape, SurfacePoint s, out float apart) {
     return abs(dot(normalize(cross(b - a, c - a)), a)) > s.tolerance;
 }
 
-Polygon corners_hidden(int shape, SurfacePoint s, AntumbraPatch p) {
+Polygon corners_hidden(int shape, SurfacePoint s, AntumbraPatch p, out vec3 normal) {
     vec3 corners[CORNERS];
     for (int i = 0; i < CORNERS; i++) {
         corners[i] = texel(shape + i).xyz - s.position;
     }
-    return polygon_of(corners, p);
+    normal = corners_normal(corners);
+    return polygon_of(corners, texel(shape).w, p);
 }
 
 bool cone_hides(int shape, SurfacePoint s, out float apart, inout bool solid) {
@@ -89,7 +104,8 @@ Hidden cone_hidden(int shape, SurfacePoint s, AntumbraPatch p) {
     corners[1] = tips[1];
     corners[2] = tips[2];
     corners[3] = (tips[2] + tips[0]) * 0.5;
-    return Hidden(conic_of_disc(center, axis.xyz, base.w, p), polygon_of(corners, p),
+    float over = dot(corners_normal(corners), p.origin * p.reach - corners[0]);
+    return Hidden(conic_of_disc(center, axis.xyz, base.w, texel(shape + 2).x, p), polygon_of(corners, over, p),
                   abs(dot(center, axis.xyz)) > s.tolerance, has_triangle);
 }
 
@@ -97,7 +113,8 @@ vec3 plane_hidden(int shape, SurfacePoint s, AntumbraPatch p, out bool hides) {
     vec4 plane = texel(shape);
     float height = dot(plane.xyz, s.position) - plane.w;
     hides = abs(height) > s.tolerance;
-    return antumbra_patch_line(p, (height < 0.0 ? plane.xyz : -plane.xyz) * p.reach) - vec3(abs(height), 0.0, 0.0);
+    float side = height < 0.0 ? 1.0 : -1.0;
+    return patch_before(p, plane.xyz * side, texel(shape + 1).x * side);
 }
 
 void main() {
@@ -110,6 +127,7 @@ void main() {
     int light_at = int(v_blocker[0].x);
     vec4 light = texel(light_at);
 #if LIGHT_TEXELS == 1
+    vec4 direction = vec4(0.0);
     AntumbraPatch p = antumbra_patch_of_sphere(light.xyz, light.w, s.position, normal);
 #else
     vec4 direction = texel(light_at + 1);
@@ -133,6 +151,9 @@ void main() {
     float apart;
     int shape;
     bool solid = false;
+    Conic kept;   // what of the inside is not hidden, if `cuts` is 1
+    int cuts;
+    vec3 facing;  // a polygon's normal
     for (int e = first; e < balls; e++) {
         bool hides = entry_shape(e, s, shape) && ball_hides(shape, s, apart, solid);
         nearest = hides ? min(nearest, apart) : nearest;
@@ -156,7 +177,7 @@ void main() {
     vec2 rows = cones < planes ? vec2(-ANTUMBRA_FAR_AWAY, ANTUMBRA_FAR_AWAY) : EMPTY;
     for (int e = first; e < balls; e++) {
         bool hides = entry_shape(e, s, shape) && ball_hides(shape, s, apart, solid);
-        rows = hides ? interval_hull(rows, conic_rows(ball_hidden(shape, s, p))) : rows;
+        rows = hides ? interval_hull(rows, cap_rows(ball_hidden(shape, s, p, light, direction.xyz, kept, cuts))) : rows;
     }
     for (int e = balls; e < discs; e++) {
         bool hides = entry_shape(e, s, shape) && disc_hides(shape, s, apart);
@@ -164,7 +185,7 @@ void main() {
     }
     for (int e = discs; e < polygons; e++) {
         bool hides = entry_shape(e, s, shape) && corners_hide(shape, s, apart);
-        rows = hides ? interval_hull(rows, corners_hidden(shape, s, p).rows) : rows;
+        rows = hides ? interval_hull(rows, corners_hidden(shape, s, p, facing).rows) : rows;
     }
     for (int e = polygons; e < cones; e++) {
         bool hides = entry_shape(e, s, shape) && cone_hides(shape, s, apart, solid);
@@ -188,18 +209,28 @@ void main() {
         }
         for (int e = first; e < balls; e++) {
             bool hides = entry_shape(e, s, shape) && ball_hides(shape, s, apart, solid);
-            vec2 hidden = conic_interval(ball_hidden(shape, s, p), y);
-            join(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY);
+            vec2 hidden = cap_interval(ball_hidden(shape, s, p, light, direction.xyz, kept, cuts), y);
+            vec2 but = EMPTY;
+            for (int k = 0; k < cuts; k++) {
+                but = conic_interval(kept, y);
+            }
+            join_but(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY, but);
         }
         for (int e = balls; e < discs; e++) {
             bool hides = entry_shape(e, s, shape) && disc_hides(shape, s, apart);
             vec2 hidden = conic_interval(disc_hidden(shape, s, p), y);
-            join(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY);
+            vec4 axis = texel(shape + 1);
+            float side = dot(axis.xyz, texel(shape).xyz - s.position) < 0.0 ? -1.0 : 1.0;
+            vec2 but = flat_kept(axis.xyz * side, axis.w * side, p, y);
+            join_but(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY, but);
         }
         for (int e = discs; e < polygons; e++) {
             bool hides = entry_shape(e, s, shape) && corners_hide(shape, s, apart);
-            vec2 hidden = polygon_interval(corners_hidden(shape, s, p), y);
-            join(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY);
+            vec2 hidden = polygon_interval(corners_hidden(shape, s, p, facing), y);
+            vec4 corner = texel(shape);
+            float side = dot(facing, corner.xyz - s.position) < 0.0 ? -1.0 : 1.0;
+            vec2 but = flat_kept(facing * side, corner.w * side, p, y);
+            join_but(slots, hides ? antumbra_interval_and(hidden, seen) : EMPTY, but);
         }
         for (int e = polygons; e < cones; e++) {
             bool hides = entry_shape(e, s, shape) && cone_hides(shape, s, apart, solid);
@@ -210,7 +241,10 @@ void main() {
             bool hides;
             bool other = entry_shape(e, s, shape);
             vec3 beyond = plane_hidden(shape, s, p, hides);
-            join(slots, other && hides ? antumbra_interval_and(antumbra_line_positive(beyond, y), seen) : EMPTY);
+            vec2 hidden = other && hides ? antumbra_interval_and(antumbra_line_positive(beyond, y), seen) : EMPTY;
+            vec4 plane = texel(shape);
+            float side = plane.w - dot(plane.xyz, s.position) < 0.0 ? -1.0 : 1.0;
+            join_but(slots, hidden, flat_kept(plane.xyz * side, texel(shape + 1).x * side, p, y));
         }
         float sum = 0.0;
         for (int k = 0; k < SLOTS; k++) {

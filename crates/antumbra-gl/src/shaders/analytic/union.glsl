@@ -54,3 +54,26 @@ void join(inout vec2 slots[SLOTS], vec2 interval) {
         slots[i] = here ? interval_hull(interval, slots[i]) : slots[i];
     }
 }
+
+// The same for an interval without what is inside of another. Loops, because both sides of a branch cost.
+void join_but(inout vec2 slots[SLOTS], vec2 hidden, vec2 kept) {
+    kept = antumbra_interval_and(hidden, kept);
+    int parts = kept.x < kept.y ? 1 : 0;
+    for (int k = 0; k < parts; k++) {
+        join(slots, vec2(hidden.x, kept.x));
+        hidden.x = kept.y;
+    }
+    join(slots, hidden);
+}
+
+// Of the strip at `y`, what is before a plane that cuts a ball of light: see conic_of_cut.
+vec2 flat_kept(vec3 normal, float over, AntumbraPatch p, float y) {
+    vec2 kept = EMPTY;
+    int cuts = p.radius_2 > over * over ? 1 : 0;
+    for (int k = 0; k < cuts; k++) {
+        Conic cut;
+        conic_of_cut(normal, over, p, cut);
+        kept = conic_interval(cut, y);
+    }
+    return kept;
+}

@@ -4,7 +4,11 @@ use super::kind::{Emitter, SoftShape};
 use crate::input::Area;
 use antumbra_math::Shape;
 use antumbra_math::blocking::Outline;
+use antumbra_math::soft::{self, Standing};
 use glam::{DMat4, DVec3, Vec4};
+
+/// `ALL_OVER` of `soft.glsl`.
+const ALL_OVER: f64 = 1e20;
 
 /// A light with an area, view space.
 #[derive(Clone, Copy, Debug)]
@@ -60,13 +64,43 @@ impl AreaLight {
         }
     }
 
+    /// How a shape stands to it.
+    pub(super) fn standing(&self, shape: &Shape) -> Standing {
+        let center = self.center;
+        let light = match self.area {
+            Area::None => return Standing::Behind,
+            Area::Sphere { radius } => soft::AreaLight::Sphere { center, radius },
+            Area::Disc { direction, radius } => soft::AreaLight::Disc { center, direction, radius },
+            Area::Rectangle { direction, half_right, half_up } => {
+                soft::AreaLight::Rectangle { center, direction, half_right, half_up }
+            }
+        };
+        Standing::new(&light, shape)
+    }
+
     /// Appends the pair's texels as `soft.frag.glsl` reads them, and says what hides; `None` for shapes without extent,
     /// which hide nothing. With `alone` the shape's texels alone, as `union.frag.glsl` reads them.
-    pub(super) fn pack_pair(&self, shape: &Shape, texels: &mut Vec<Vec4>, alone: bool) -> Option<SoftShape> {
+    pub(super) fn pack_pair(
+        &self,
+        shape: &Shape,
+        standing: Standing,
+        texels: &mut Vec<Vec4>,
+        alone: bool,
+    ) -> Option<SoftShape> {
         let (_, extent) = shape.bounding_sphere();
         if !(extent > 0.0) {
             return None;
         }
+        // What the shaders take for infinity: they have no other.
+        let over = match standing {
+            Standing::Over(over) => over.clamp(-ALL_OVER, ALL_OVER),
+            _ => 0.0,
+        };
+        let circle = match standing {
+            Standing::Circle { along, radius } => Vec4::new(along as f32, radius as f32, 1.0, 0.0),
+            _ => Vec4::ZERO,
+        };
+        let just = Vec4::X * over as f32;
         let kind = SoftShape::of(shape)?;
         let first = texels.len();
         if !alone {
@@ -74,17 +108,17 @@ impl AreaLight {
         }
         let texel = |v: DVec3, w: f64| v.as_vec3().extend(w as f32);
         match *shape {
-            Shape::Sphere(s) => texels.push(texel(s.center, s.radius)),
-            Shape::Disc(s) => texels.extend([texel(s.center, s.radius), texel(s.normal, 0.0)]),
+            Shape::Sphere(s) => texels.extend([texel(s.center, s.radius), circle]),
+            Shape::Disc(s) => texels.extend([texel(s.center, s.radius), texel(s.normal, over)]),
             Shape::Triangle(s) => {
-                texels.extend(s.vertices.map(|v| texel(v, 0.0)));
+                texels.extend(s.vertices.map(|v| texel(v, over)));
                 if alone {
                     texels.push(texel(s.vertices[2].midpoint(s.vertices[0]), 0.0));
                 }
             }
-            Shape::Rectangle(s) => texels.extend(s.corners().map(|v| texel(v, 0.0))),
-            Shape::Cone(s) => texels.extend([texel(s.base_center, s.radius), texel(s.axis, s.height)]),
-            Shape::Plane(s) => texels.push(texel(s.normal, s.offset)),
+            Shape::Rectangle(s) => texels.extend(s.corners().map(|v| texel(v, over))),
+            Shape::Cone(s) => texels.extend([texel(s.base_center, s.radius), texel(s.axis, s.height), just]),
+            Shape::Plane(s) => texels.extend([texel(s.normal, s.offset), just]),
             _ => {} // not of a kind
         }
         if texels[first..].iter().any(|texel| !texel.is_finite()) {

@@ -9,6 +9,8 @@ pub(super) enum HardKind {
     Sphere,
     Disc,
     Polygon,
+    /// A polygon that touches others along its edges.
+    Seamed,
 }
 
 /// A light with an area, as far as programs differ by it.
@@ -61,7 +63,7 @@ pub(super) enum Kind {
 
 impl Kind {
     pub(super) const COUNT: usize = PROGRAMS.len();
-    const FIRST_SOFT: usize = 3;
+    const FIRST_SOFT: usize = 4;
     const FIRST_UNION: usize = Self::FIRST_SOFT + 2 * SoftShape::COUNT;
 
     /// Its place in [`PROGRAMS`].
@@ -150,7 +152,7 @@ macro_rules! union {
             vertex: blocker!("2"),
             fragment: Stage {
                 defines: concat!(
-                    "#define BLOCKER_TEXELS 2\n#define CORNERS 4\n#define CONE\n#define LIGHT_TEXELS ",
+                    "#define BLOCKER_TEXELS 2\n#define UNION\n#define CORNERS 4\n#define CONE\n#define LIGHT_TEXELS ",
                     $light,
                     "\n"
                 ),
@@ -176,18 +178,19 @@ pub(crate) const PROGRAMS: &[ProgramSource] = &[
     hard!("sphere", "2", "sphere.glsl"),
     hard!("disc", "3", "disc.glsl"),
     hard!("polygon", "5", "polygon.glsl"),
-    soft!("sphere light, sphere", When::BALLS, "1", "2", "SPHERE"),
+    hard!("polygon with seams", "5\n#define SEAMS", "polygon.glsl"),
+    soft!("sphere light, sphere", When::BALLS, "1", "3", "SPHERE"),
     soft!("sphere light, disc", When::BALLS, "1", "3", "DISC"),
     soft!("sphere light, triangle", When::BALLS, "1", "4", "CORNERS 3"),
     soft!("sphere light, rectangle", When::BALLS, "1", "5", "CORNERS 4"),
-    soft!("sphere light, cone", When::BALLS, "1", "3", "CONE"),
-    soft!("sphere light, plane", When::BALLS, "1", "2", "PLANE"),
-    soft!("flat light, sphere", When::FLATS, "4", "5", "SPHERE"),
+    soft!("sphere light, cone", When::BALLS, "1", "4", "CONE"),
+    soft!("sphere light, plane", When::BALLS, "1", "3", "PLANE"),
+    soft!("flat light, sphere", When::FLATS, "4", "6", "SPHERE"),
     soft!("flat light, disc", When::FLATS, "4", "6", "DISC"),
     soft!("flat light, triangle", When::FLATS, "4", "7", "CORNERS 3"),
     soft!("flat light, rectangle", When::FLATS, "4", "8", "CORNERS 4"),
-    soft!("flat light, cone", When::FLATS, "4", "6", "CONE"),
-    soft!("flat light, plane", When::FLATS, "4", "5", "PLANE"),
+    soft!("flat light, cone", When::FLATS, "4", "7", "CONE"),
+    soft!("flat light, plane", When::FLATS, "4", "6", "PLANE"),
     union!("sphere light, all", When::BALLS.exactly(), "1"),
     union!("flat light, all", When::FLATS.exactly(), "4"),
 ];
@@ -209,7 +212,12 @@ mod tests {
             (SoftShape::Plane, "plane"),
         ];
         assert_eq!(shapes.len(), SoftShape::COUNT, "all shapes");
-        let hard = [(HardKind::Sphere, "sphere"), (HardKind::Disc, "disc"), (HardKind::Polygon, "polygon")];
+        let hard = [
+            (HardKind::Sphere, "sphere"),
+            (HardKind::Disc, "disc"),
+            (HardKind::Polygon, "polygon"),
+            (HardKind::Seamed, "polygon with seams"),
+        ];
         let mut kinds = hard.map(|(kind, name)| (Kind::Hard(kind), name.to_owned())).to_vec();
         for (emitter, light) in emitters {
             kinds

@@ -7,6 +7,7 @@
 mod area_light;
 mod kind;
 mod pairs;
+mod seams;
 mod union;
 
 use super::method::{Behavior, Make};
@@ -33,7 +34,8 @@ pub(super) const ABOUT: About = About {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Quality {
-    /// By the product of what each leaves: exact where they do not hide the same part of the light.
+    /// By the product of what each leaves: exact where one hides all or nothing, between the least and the most that they
+    /// can hide together elsewhere.
     #[default]
     Fast,
     /// By the union of what they hide, on 24 strips of the light: several times the cost.
@@ -46,7 +48,8 @@ impl Quality {
     const CHOICES: &[Choice] = &[
         Choice::new(
             "fast",
-            "By the product of what each leaves: exact where they do not hide the same part of the light.",
+            "By the product of what each leaves: exact where one hides all or nothing, between the least and the most that \
+             they can hide together elsewhere.",
         ),
         Choice::new(
             "exact",
@@ -117,7 +120,7 @@ impl Make for State {
 
 impl Method for State {
     unsafe fn begin(&mut self, pass: &Pass<'_>) -> Result<(), Error> {
-        self.pairs.begin(pass.frame.occluders, pass.frame.bounds, pass.view);
+        self.pairs.begin(&pass.frame, pass.view);
         Ok(())
     }
 

@@ -2,14 +2,16 @@
 
 use super::area_light::AreaLight;
 use super::kind::{HardKind, Kind};
+use super::seams::{Piece, Seams};
 use super::union::UnionBuilder;
-use crate::input::{Light, Occluder};
+use crate::input::{Frame, Light};
 use crate::masks::{BATCH_LIGHTS, Counts, GROUP_LIGHTS};
 use crate::screen::{ProxyBuilder, TileGrid, View, hides_its_own_shadow, seen_half_spaces};
 use crate::technique::polygons::{Vertex, push_polygon};
-use antumbra_math::blocking::{Blocker, Blockers};
+use antumbra_math::blocking::{Blocker, Blockers, Outline, PolygonBlocker};
+use antumbra_math::soft::Standing;
 use antumbra_math::{Plane, Shape};
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, DVec4, Vec3, Vec4};
 
 /// The vertices of one target and one program: one draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +33,11 @@ pub(super) struct PairBuilder {
     bounds_vs: Vec<Plane>,
     proxy: ProxyBuilder,
     union: UnionBuilder,
+    seams: Seams,
+    /// Whether the surface has ids: then an occluder without one is not drawn.
+    has_ids: bool,
+    /// The ids of solids that hold a light.
+    holders: Vec<u32>,
     /// [`LISTS`] of them.
     lists: Vec<Vec<Vertex>>,
     /// What the blockers' data texture is to hold.
@@ -45,8 +52,11 @@ pub(super) struct PairBuilder {
 
 impl PairBuilder {
     /// Takes the frame's occluders into view space.
-    pub(super) fn begin(&mut self, occluders: &[Occluder], bounds: &[Plane], view: &View) {
+    pub(super) fn begin(&mut self, frame: &Frame<'_>, view: &View) {
+        let (occluders, bounds) = (frame.occluders, frame.bounds);
+        self.has_ids = frame.surface.ids.is_some();
         self.counts = Counts::default();
+        self.seams.begin(occluders);
         self.shapes_vs.clear();
         self.bounds_vs.clear();
         seen_half_spaces(occluders, bounds, view, &mut self.bounds_vs);
@@ -95,12 +105,29 @@ impl PairBuilder {
         tiles: &mut TileGrid,
     ) {
         let channel = index % GROUP_LIGHTS;
-        for &(shape, id, center, radius) in &self.shapes_vs {
+        for (occluder, &(shape, id, center, radius)) in self.shapes_vs.iter().enumerate() {
             self.counts.pairs += 1;
             let drawn_before = self.counts.polygons;
             if !light.may_reach(light_vs, center, radius)
                 || hides_its_own_shadow(&shape, id, light_vs, view.eye_vs())
             {
+                continue;
+            }
+            if self.seams.touches(occluder) {
+                for piece in self.seams.pieces(occluder, light_vs.homogeneous(), &view.view) {
+                    let outline = piece.outline();
+                    let polygon =
+                        self.proxy.bound(&outline, id == 0, light_vs.homogeneous(), view, &self.bounds_vs);
+                    if polygon.len() < 3 {
+                        continue;
+                    }
+                    self.counts.polygons += 1;
+                    tiles.touch(polygon);
+                    let first = self.texels.len();
+                    let kind = Kind::Hard(pack_piece(&piece, &mut self.texels));
+                    push_polygon(&mut self.lists[list(index, kind)], polygon, view, (channel, first), id);
+                }
+                self.counts.drawn += usize::from(self.counts.polygons > drawn_before);
                 continue;
             }
             for (blocker, outline) in Blockers::new(&shape, light_vs).iter() {
@@ -119,6 +146,20 @@ impl PairBuilder {
         }
     }
 
+    /// A solid that holds the light: nothing arrives anywhere but on itself.
+    fn pack_everything(&mut self, index: usize, id: u32, view: &View, tiles: &mut TileGrid) {
+        let polygon = self.proxy.bound(&Outline::Everywhere, id == 0, DVec4::W, view, &self.bounds_vs);
+        if polygon.len() < 3 {
+            return;
+        }
+        self.counts.drawn += 1;
+        self.counts.polygons += 1;
+        tiles.touch(polygon);
+        let first = self.texels.len();
+        let kind = Kind::Hard(pack_blocker(&Blocker::Polygon(PolygonBlocker::EVERYTHING), &mut self.texels));
+        push_polygon(&mut self.lists[list(index, kind)], polygon, view, (index % GROUP_LIGHTS, first), id);
+    }
+
     /// `place` is where the light's centre is.
     fn pack_area_light(
         &mut self,
@@ -135,14 +176,25 @@ impl PairBuilder {
             self.union.begin(view.size());
             area.pack(&mut self.texels);
         }
+        let mut holders = std::mem::take(&mut self.holders);
+        holders.clear();
         for &(shape, id, center, radius) in &self.shapes_vs {
             self.counts.pairs += 1;
             let hides_all = area.is_beside(&shape) && hides_its_own_shadow(&shape, id, place, view.eye_vs());
             if hides_all || !light.may_reach(place, center, radius) {
                 continue;
             }
+            let standing = area.standing(&shape);
+            match standing {
+                Standing::Behind => continue,
+                Standing::Around => {
+                    holders.push(id);
+                    continue;
+                }
+                _ => {}
+            }
             let first = self.texels.len();
-            let Some(kind) = area.pack_pair(&shape, &mut self.texels, exact) else { continue };
+            let Some(kind) = area.pack_pair(&shape, standing, &mut self.texels, exact) else { continue };
             let (outline, origins) = area.outline(&shape);
             let polygon = self.proxy.bound_from(&outline, id == 0, origins.iter(), view, &self.bounds_vs);
             if polygon.len() < 3 {
@@ -159,6 +211,8 @@ impl PairBuilder {
             let list = list(index, Kind::Soft(area.emitter(), kind));
             push_polygon(&mut self.lists[list], polygon, view, (channel, first), id);
         }
+        holders.iter().for_each(|&id| self.pack_everything(index, id, view, tiles));
+        self.holders = holders;
         if exact {
             let list = &mut self.lists[list(index, Kind::Union(area.emitter()))];
             self.union.pack(light_texel, &mut self.texels, |corners, first| {
@@ -189,4 +243,19 @@ fn pack_blocker(blocker: &Blocker<DVec3>, texels: &mut Vec<Vec4>) -> HardKind {
             HardKind::Polygon
         }
     }
+}
+
+/// The same of a polygon's piece: with four texels for each edge where any is continued, the plane of what continues it and
+/// three edges. Behind the plane of what is not there is nothing.
+fn pack_piece(piece: &Piece, texels: &mut Vec<Vec4>) -> HardKind {
+    let kind = pack_blocker(&Blocker::Polygon(piece.blocker), texels);
+    if piece.seams.iter().all(Option::is_none) {
+        return kind;
+    }
+    let texel = |(normal, offset): (DVec3, f64)| normal.as_vec3().extend(offset as f32);
+    for seam in &piece.seams {
+        texels.push(seam.map_or(-Vec4::W, |seam| texel(seam.base)));
+        texels.extend(seam.map_or([Vec4::W; 3], |seam| seam.edges.map(texel)));
+    }
+    HardKind::Seamed
 }
