@@ -11,8 +11,8 @@ use antumbra_math::Shape;
 use antumbra_math::blocking::PolygonBlocker;
 use glam::{DMat4, DVec3, DVec4};
 
+use divide::Divider;
 pub(super) use divide::Piece;
-use divide::divide;
 
 /// How far from another edge's line, in lengths of the longer, an edge may lie that is taken to lie in it: what float32 leaves
 /// of corners that are meant to be the same.
@@ -63,6 +63,7 @@ pub(super) struct Seams {
     known: Vec<Occluder>,
     /// Of each occluder, what touches each of its edges.
     contacts: Vec<[Vec<Contact>; 4]>,
+    divider: Divider,
 }
 
 /// An edge of a polygon.
@@ -134,13 +135,17 @@ impl Seams {
 
     /// The polygon `index` in pieces, each with what continues its edges as the light sees them; view space. None for a
     /// polygon that the light sees edge-on.
-    pub(super) fn pieces(&self, index: usize, light: DVec4, view: &DMat4) -> Vec<Piece> {
-        let Some((corners_vs, count)) = self.corners_vs(index, view) else { return Vec::new() };
-        let Some(blocker) = PolygonBlocker::new(&corners_vs[..count], light) else { return Vec::new() };
-        let mut parts: [Vec<(f64, f64, Seam)>; 4] = Default::default();
-        for (edge, parts) in parts.iter_mut().enumerate().take(count) {
-            let ends = [corners_vs[edge], corners_vs[(edge + 1) % count]];
-            let own = &corners_vs[..count];
+    pub(super) fn pieces(&mut self, index: usize, light: DVec4, view: &DMat4) -> &[Piece] {
+        let Some((corners_vs, count)) = self.corners_vs(index, view) else { return self.divider.none() };
+        let own = &corners_vs[..count];
+        let Some(blocker) = PolygonBlocker::new(own, light) else { return self.divider.none() };
+        let mut divider = std::mem::take(&mut self.divider);
+        for (edge, parts) in divider.parts.iter_mut().enumerate() {
+            parts.clear();
+            if edge >= count {
+                continue;
+            }
+            let ends = [own[edge], own[(edge + 1) % count]];
             for contact in &self.contacts[index][edge] {
                 let seam = self.seam(contact.other, blocker.edges[edge], ends, own, light, view);
                 parts.extend(seam.map(|seam| (contact.from, contact.to, seam)));
@@ -151,9 +156,11 @@ impl Seams {
                     parts.extend(fold.map(|fold| (contact.from, contact.to, fold)));
                 }
             }
-            parts.sort_by(|a, b| a.0.total_cmp(&b.0));
+            // Unstable, because the other allocates.
+            parts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         }
-        divide(&corners_vs[..count], &parts, blocker.base, light)
+        self.divider = divider;
+        self.divider.divide(own, blocker.base, light)
     }
 
     /// What the polygon `other` beyond an edge is to it; `None` where it is on the same side, as the light sees them, or is seen
@@ -187,11 +194,15 @@ impl Seams {
                 third
                     .is_some_and(|(third, count)| third[..count].iter().any(|p| -height(edges[i], *p) > near))
             };
-            let mut parts: Vec<_> =
-                self.contacts[index][i].iter().filter(goes_on).map(|c| (c.from, c.to)).collect();
-            parts.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let reached = |at: f64, (from, to): (f64, f64)| if from <= at + LEAST { at.max(to) } else { at };
-            parts.into_iter().fold(0.0, reached) >= 1.0 - LEAST
+            let mut at = 0.0;
+            let further = |at: f64| {
+                let parts = self.contacts[index][i].iter().filter(goes_on);
+                parts.filter(|c| c.from <= at + LEAST && c.to > at).map(|c| c.to).fold(at, f64::max)
+            };
+            while further(at) > at {
+                at = further(at);
+            }
+            at >= 1.0 - LEAST
         };
         // Its farthest edge, or the two that meet in its farthest corner.
         let is_farthest = |i: usize| beyond(&other[i % count]) >= beyond(&farthest) - near;
@@ -274,7 +285,7 @@ mod tests {
     fn pieces(occluders: &[Occluder], index: usize) -> Vec<Piece> {
         let mut seams = Seams::default();
         seams.begin(occluders);
-        seams.pieces(index, above(), &DMat4::IDENTITY)
+        seams.pieces(index, above(), &DMat4::IDENTITY).to_vec()
     }
 
     fn seamed(pieces: &[Piece]) -> usize {

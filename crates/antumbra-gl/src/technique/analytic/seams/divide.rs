@@ -38,25 +38,50 @@ enum Side {
     Cut,
 }
 
-/// A piece that may have to be divided further.
-type Part = Vec<(DVec3, Side)>;
+/// A piece that may have to be divided further: corners, each with the side that begins there.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    corners: [(DVec3, Side); 4],
+    count: usize,
+}
 
 /// What continues parts of an edge, sorted by where they begin.
-type Parts = [Vec<(f64, f64, Seam)>; 4];
+pub(super) type Parts = [Vec<(f64, f64, Seam)>; 4];
 
-/// The pieces of a polygon.
-pub(super) fn divide(corners: &[DVec3], parts: &Parts, base: Half, light: DVec4) -> Vec<Piece> {
-    let whole = |edge| Side::Edge { edge, from: 0.0, to: 1.0 };
-    let mut open: Vec<Part> = vec![corners.iter().enumerate().map(|(i, &p)| (p, whole(i))).collect()];
-    let mut pieces = Vec::new();
-    while let Some(part) = open.pop() {
-        let breaks = (0..part.len()).find_map(|i| Some((i, break_of(part[i].1, parts)?)));
-        match breaks {
-            Some((side, at)) if open.len() + pieces.len() < MOST => open.extend(cut(&part, side, at)),
-            _ => pieces.extend(piece(&part, parts, base, light)),
+/// Divides polygons; keeps its memory from one to the next.
+#[derive(Default)]
+pub(super) struct Divider {
+    /// What continues the edges of the next polygon.
+    pub(super) parts: Parts,
+    open: Vec<Part>,
+    pieces: Vec<Piece>,
+}
+
+impl Divider {
+    /// The pieces of a polygon.
+    pub(super) fn divide(&mut self, corners: &[DVec3], base: Half, light: DVec4) -> &[Piece] {
+        let whole = |edge| Side::Edge { edge, from: 0.0, to: 1.0 };
+        let corner = |i: usize| (corners[i.min(corners.len() - 1)], whole(i));
+        self.pieces.clear();
+        self.open.clear();
+        self.open.push(Part { corners: [0, 1, 2, 3].map(corner), count: corners.len() });
+        while let Some(part) = self.open.pop() {
+            let breaks = (0..part.count).find_map(|i| Some((i, break_of(part.corners[i].1, &self.parts)?)));
+            match breaks {
+                Some((side, at)) if self.open.len() + self.pieces.len() < MOST => {
+                    self.open.extend(cut(&part, side, at));
+                }
+                _ => self.pieces.extend(piece(&part, &self.parts, base, light)),
+            }
         }
+        &self.pieces
     }
-    pieces
+
+    /// Nothing.
+    pub(super) fn none(&mut self) -> &[Piece] {
+        self.pieces.clear();
+        &self.pieces
+    }
 }
 
 /// Where, on its edge, a side begins or ends to be continued.
@@ -71,27 +96,26 @@ fn break_of(side: Side, parts: &Parts) -> Option<f64> {
 
 /// Two parts, divided from a point of a side to the corner after the next.
 fn cut(part: &Part, side: usize, at: f64) -> [Part; 2] {
-    let count = part.len();
-    let Side::Edge { edge, from, to } = part[side].1 else { return [part.clone(), Vec::new()] };
-    let (begin, end) = (part[side].0, part[(side + 1) % count].0);
-    let point = begin.lerp(end, (at - from) / (to - from));
-    let far = (side + 2) % count;
+    let count = part.count;
+    let corner = |i: usize| part.corners[i % count];
+    let (begin, Side::Edge { edge, from, to }) = corner(side) else { return [*part, *part] };
+    let point = begin.lerp(corner(side + 1).0, (at - from) / (to - from));
+    let far = corner(side + 2).0;
     let first =
-        vec![(point, Side::Edge { edge, from: at, to }), part[(side + 1) % count], (part[far].0, Side::Cut)];
-    let mut second = vec![(point, Side::Cut)];
-    second.extend((0..count - 1).map(|i| part[(far + i) % count]).take(count - 2));
-    second.push((begin, Side::Edge { edge, from, to: at }));
-    [first, second]
+        [(point, Side::Edge { edge, from: at, to }), corner(side + 1), (far, Side::Cut), (far, Side::Cut)];
+    let last = (begin, Side::Edge { edge, from, to: at });
+    let mut second = [(point, Side::Cut), corner(side + 2), corner(side + 3), last];
+    second[count - 1] = last;
+    [Part { corners: first, count: 3 }, Part { corners: second, count }]
 }
 
 /// A part with what continues its sides; `None` without an area.
 fn piece(part: &Part, parts: &Parts, base: Half, light: DVec4) -> Option<Piece> {
-    let mut corners = [part.first()?.0; 4];
-    corners.iter_mut().zip(part).for_each(|(corner, (p, _))| *corner = *p);
-    let count = part.len();
+    let count = part.count;
+    let corners = part.corners.map(|(corner, _)| corner);
     let blocker = PolygonBlocker { base, ..PolygonBlocker::new(&corners[..count], light)? };
     let mut seams = [None; 4];
-    for (seam, (_, side)) in seams.iter_mut().zip(part) {
+    for (seam, (_, side)) in seams.iter_mut().zip(&part.corners[..count]) {
         *seam = match *side {
             Side::Cut => Some(Seam { base, edges: [ANYWHERE; 3] }),
             Side::Edge { edge, from, to } => continued(&parts[edge], from, to),
