@@ -124,7 +124,7 @@ impl PairBuilder {
                     self.counts.polygons += 1;
                     tiles.touch(polygon);
                     let first = self.texels.len();
-                    let kind = Kind::Hard(pack_piece(&piece, &mut self.texels));
+                    let kind = Kind::Hard(pack_piece(piece, &mut self.texels));
                     push_polygon(&mut self.lists[list(index, kind)], polygon, view, (channel, first), id);
                 }
                 self.counts.drawn += usize::from(self.counts.polygons > drawn_before);
