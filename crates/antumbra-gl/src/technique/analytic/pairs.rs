@@ -34,8 +34,6 @@ pub(super) struct PairBuilder {
     proxy: ProxyBuilder,
     union: UnionBuilder,
     seams: Seams,
-    /// Whether the surface has ids: then an occluder without one is not drawn.
-    has_ids: bool,
     /// The ids of solids that hold a light.
     holders: Vec<u32>,
     /// [`LISTS`] of them.
@@ -54,7 +52,6 @@ impl PairBuilder {
     /// Takes the frame's occluders into view space.
     pub(super) fn begin(&mut self, frame: &Frame<'_>, view: &View) {
         let (occluders, bounds) = (frame.occluders, frame.bounds);
-        self.has_ids = frame.surface.ids.is_some();
         self.counts = Counts::default();
         self.seams.begin(occluders);
         self.shapes_vs.clear();
